@@ -1,0 +1,92 @@
+#include "gn_clip.h"
+
+enum { PLANES = 6 };
+
+/* Distance to a plane, positive inside. Planes: near, far, then the guard band's four sides. |.| < 2^35. */
+static int64_t distance(const gn_view *view, const gn_place *p, int plane)
+{
+    int64_t w = p->c[2];
+    if (plane == 0)
+        return w - view->near_w;
+    if (plane == 1)
+        return view->far_w - w;
+    int64_t reach = view->affine ? GN_MAX_COORDINATE : view->guard * w;
+    int64_t c = p->c[(plane - 2) >> 1];
+    return plane & 1 ? reach + c : reach - c;
+}
+
+static int precedes(const gn_place *a, const gn_place *b)
+{
+    for (int i = 0; i < 3; i++)
+        if (a->c[i] != b->c[i])
+            return a->c[i] < b->c[i];
+    return 0;
+}
+
+/* The point between a and b at distance 0. da and db have opposite signs or one is 0; not both. */
+static gn_place crossing(const gn_view *view, const gn_place *a, const gn_place *b, int64_t da, int64_t db, int plane)
+{
+    if (precedes(b, a)) {
+        const gn_place *p = a;
+        int64_t d = da;
+        a = b, b = p;
+        da = db, db = d;
+    }
+    uint64_t from_a = (uint64_t)(da < 0 ? -da : da), from_b = (uint64_t)(db < 0 ? -db : db);
+    while ((from_a + from_b) >> 31) {
+        from_a >>= 1;
+        from_b >>= 1;
+    }
+    uint32_t t = gn_divide(from_a << 32, (uint32_t)(from_a + from_b) + 1); /* t / 2^32 of the way from a to b */
+    gn_place p;
+    for (int i = 0; i < 3; i++) {
+        int64_t apart = (int64_t)b->c[i] - a->c[i], high = gn_floor_shift_64(apart, 16), low = apart & 0xffff;
+        p.c[i] = (int32_t)(a->c[i] + gn_floor_shift_64(high * t + gn_floor_shift_64(low * t, 16), 16));
+    }
+    if (plane == 0)
+        p.c[2] = view->near_w;
+    if (plane == 1)
+        p.c[2] = view->far_w;
+    return p;
+}
+
+static int32_t clip_at(const gn_view *view, const gn_place *in, int32_t count, gn_place *out, int plane)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < count; i++) {
+        const gn_place *a = &in[i], *b = &in[i + 1 < count ? i + 1 : 0];
+        int64_t da = distance(view, a, plane), db = distance(view, b, plane);
+        /* A convex polygon gains at most one vertex a plane; rounding must not make it more. */
+        if (da >= 0 && n < GN_CLIP_VERTICES)
+            out[n++] = *a;
+        if (((da > 0 && db < 0) || (da < 0 && db > 0)) && n < GN_CLIP_VERTICES)
+            out[n++] = crossing(view, a, b, da, db, plane);
+    }
+    return n;
+}
+
+void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place corner[3])
+{
+    gn_place buffer[2][GN_CLIP_VERTICES];
+    int32_t count = 3, from = 0;
+    polygon->count = 0;
+    polygon->area = 0;
+    polygon->reference = 1;
+    for (int i = 0; i < 3; i++)
+        buffer[0][i] = corner[i];
+    for (int plane = 0; plane < PLANES && count >= 3; plane++, from ^= 1)
+        count = clip_at(view, buffer[from], count, buffer[from ^ 1], plane);
+    if (count < 3)
+        return;
+    for (int32_t i = 0; i < count; i++)
+        gn_view_project_inside(view, &buffer[from][i], &polygon->v[i]);
+    polygon->count = count;
+    for (int32_t i = 1; i + 1 < count; i++) {
+        int64_t area = gn_area(&polygon->v[0], &polygon->v[i], &polygon->v[i + 1]);
+        int64_t largest = polygon->area < 0 ? -polygon->area : polygon->area;
+        if ((area < 0 ? -area : area) > largest) {
+            polygon->area = area;
+            polygon->reference = i;
+        }
+    }
+}

@@ -1,0 +1,23 @@
+/* Clipping at the near and far planes and at a guard band, before projection.
+ *
+ * A point where an edge crosses a plane is computed from the edge's ends in a canonical order (by their coordinates),
+ * so neighbours that share the edge share the point: clipped meshes stay watertight. A clipped triangle is a fan of
+ * pieces; all of them keep one plane, that of the largest piece. Slow path: not reached by triangles inside the guard
+ * band. */
+#ifndef GN_CLIP_H
+#define GN_CLIP_H
+
+#include "gn_view.h"
+
+#define GN_CLIP_VERTICES 9 /* three, and one for each of six planes */
+
+typedef struct gn_polygon {
+    gn_vertex v[GN_CLIP_VERTICES];
+    int32_t count;     /* 0, or 3 to 9 */
+    int32_t reference; /* the fan's piece (v[0], v[reference], v[reference + 1]) of largest area */
+    int64_t area;      /* of that piece; 0: nothing to draw */
+} gn_polygon;
+
+void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place corner[3]);
+
+#endif

@@ -1,0 +1,132 @@
+/* What a context holds, and how its block is laid out: the head, the object states and the map stay; what follows is
+ * shared by the two passes in turn (gn_plan.c). */
+#ifndef GN_CONTEXT_H
+#define GN_CONTEXT_H
+
+#include "gn_view.h"
+#include "gnomon.h"
+
+#define GN_NO_TRIANGLE 0xffffffffu
+
+/* Colour pairs of triangles in view, kept per worker: a direct-mapped cache, a power of two. Trades RAM (24 bytes an
+ * entry) against time; never changes a pixel. */
+#ifndef GN_COLOUR_CACHE
+#define GN_COLOUR_CACHE 64
+#endif
+
+typedef struct gn_object_state {
+    uint32_t first_vertex; /* of the object in the vertex array */
+    uint8_t mirrored;      /* the model matrix turns front into back */
+    uint8_t clips;         /* some vertex cannot be projected in the current pass */
+} gn_object_state;
+
+/* value(x, y) = a + b's product with W: a(x, y) + floor(W b(x, y) / 2^32), each affine in the pixel, modulo 2^32. With
+ * a perspective camera only b varies over the image, with an orthographic one only a. */
+typedef struct gn_linear {
+    uint32_t a, a_dx, a_dy;
+    uint32_t b, b_dx, b_dy;
+} gn_linear;
+
+/* From (x, y, Q) to light space. */
+typedef struct gn_shading {
+    gn_linear coordinate[3]; /* directional: u, v, depth; spot: (X + W) / 2, (Y + W) / 2, W */
+    uint8_t w_shift;         /* W = 2^(61 - w_shift) / Q */
+    uint8_t position_bits;   /* fraction bits of u and v in texels */
+    uint8_t depth_bits;      /* fraction bits of depth in units of 1/65536 */
+    uint8_t trusted;         /* every point of the scene lies inside the light's box: no test needed */
+    uint32_t near_w, far_w;  /* spot: in the unit of coordinate[2] */
+} gn_shading;
+
+enum { GN_FALLOFF_STEPS = 64 };
+
+typedef struct gn_colour_pair {
+    uint32_t triangle;
+    uint32_t lit, unlit; /* as written to the image; lit: full light */
+    uint32_t distance;   /* spot: of the light from the plane, mantissa */
+    uint8_t distance_shift;
+    uint8_t faces_light; /* camera and light are on the same side */
+} gn_colour_pair;
+
+typedef struct gn_worker {
+    gn_depth *second; /* light pass: second layer of a light region */
+    uint32_t *q;      /* camera pass: Q, 1 where there is no surface */
+    uint32_t *triangle;
+    gn_colour_pair *colours;
+    gn_statistics statistics;
+} gn_worker;
+
+struct gn_context {
+    const gn_scene *scene;
+    gn_settings settings;
+    gn_plan plan;
+    gn_object_state *objects;
+    gn_worker *workers;
+    gn_depth *map;
+    uint8_t *shared; /* where the two passes take turns */
+    gn_vertex *vertices;
+    uint32_t triangle_bits; /* identifier = object << triangle_bits | triangle */
+
+    gn_light light;
+    gn_view light_view;
+    uint32_t bias; /* in units of a 32-bit depth */
+    uint8_t light_trusted;
+    uint8_t light_ready, light_done, camera_ready;
+    uint16_t falloff[GN_FALLOFF_STEPS + 2]; /* spot: w / distance by (u^2 + v^2), Q1.15 */
+
+    gn_camera camera;
+    gn_view camera_view;
+    gn_shading shading;
+    uint32_t *bin_first; /* first item of each bin; one more at the end */
+    uint32_t *bin_items; /* triangle identifiers */
+    uint32_t bands, bin_count;
+    uint8_t bin_levels;
+    void *colour_buffer; /* of gn_camera_pass */
+    uint8_t *mask_buffer;
+};
+
+GN_INLINE void gn_triangle_indices(const gn_mesh *mesh, uint32_t triangle, uint32_t index[3])
+{
+    if (mesh->index_size == 2) {
+        const uint16_t *i = (const uint16_t *)mesh->indices + 3 * (size_t)triangle;
+        index[0] = i[0], index[1] = i[1], index[2] = i[2];
+    } else {
+        const uint32_t *i = (const uint32_t *)mesh->indices + 3 * (size_t)triangle;
+        index[0] = i[0], index[1] = i[1], index[2] = i[2];
+    }
+}
+
+/* World position of a vertex. GN_OUT_OF_RANGE beyond GN_WORLD_MAX. */
+gn_status gn_world_position(const gn_object *object, uint32_t vertex, int32_t world[3]);
+
+/* Sign of the model's determinant: 1 if it mirrors. */
+int gn_mirrors(const gn_model *model);
+
+/* Transform all vertices of the scene for a view; sets the objects' states. *largest_w: of all vertices in front;
+ * *inside: whether all vertices project inside the screen. */
+gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *largest_w, int *inside);
+
+/* The places of a triangle's corners, for clipping. */
+void gn_triangle_places(const gn_view *view, const gn_object *object, const uint32_t index[3], gn_place corner[3]);
+
+/* Lay out the shared part of the block for one pass; returns its size. With a null context only the size. */
+size_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings);
+size_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings);
+
+/* gn_shade.c: constants of a pair of camera and light, and the shadow test of one row. Afterwards q[i] is 0 where the
+ * pixel is shadowed; directional: 1 where it is lit; spot: near / distance, Q2.30, at least 1. */
+gn_status gn_make_shading(gn_context *context, int32_t largest_w);
+void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
+void gn_make_falloff(gn_context *context);
+
+/* gn_colour.c: the colours and the mask of one row. Returns the number of pixels that see a surface; *tested: of these,
+ * turned to the light. colour or mask may be 0. */
+void gn_clear_colours(gn_worker *worker);
+uint32_t gn_colour_row(const gn_context *context, gn_worker *worker, const uint32_t *lit, const uint32_t *triangle,
+                       int32_t count, void *colour, uint8_t *mask, uint32_t *tested);
+
+/* gn_visibility.c: depth and triangle for a region. */
+void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window *window);
+gn_status gn_make_bins(gn_context *context);
+void gn_count_bins(const gn_plan *plan, const gn_settings *settings, uint32_t *bands, uint32_t *levels, uint32_t *bins);
+
+#endif

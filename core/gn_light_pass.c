@@ -1,0 +1,399 @@
+/* The light pass: nearest and second nearest depth a texel, in one walk, then one virtual surface.
+ *
+ * z1 and z2 are the two smallest depths of all triangles that cover the texel's centre, as a multiset: equal depths
+ * count twice. Both are minima, so the layers do not depend on the order of triangles, on regions or on workers.
+ *     h = max(z1, v);  z1 = min(z1, v);  z2 = min(z2, h)
+ * Culling follows from the mark of the mesh alone: closed meshes may lose their back or front faces, open ones never.
+ * For second depth a triangle of an open mesh is inserted twice: a solid of zero thickness (Wang & Molnar 1994, 3.3).
+ * For mixed the lowest bit of a depth marks it as open, so at equal depth the closed one is the nearer.
+ *
+ * An empty layer holds the largest value. Cost: a texel 8 instructions on a Cortex-M4, two layers 14 at most.
+ * Memory: map, 12 bytes a vertex, the second layer of one region a worker. */
+#include "gn_clip.h"
+#include "gn_context.h"
+
+#define GN_FARTHEST ((gn_depth)0xffffffffu)
+#define GN_DEPTH_SHIFT (32 - GN_DEPTH_BITS)
+
+/* ---- spans ----------------------------------------------------------------------------------------------------- */
+
+typedef struct target {
+    gn_depth *first, *second; /* of the region's first row */
+    int32_t stride, row0;
+    gn_depth_plane plane;
+    uint32_t open; /* 1: mark as open (mixed) */
+} target;
+
+/* The depths are stepped in 32 bits and cut to the stored width: 16-bit layers are the upper half of 32-bit ones. */
+GN_INLINE uint32_t start_depth(const target *t, int32_t row, int32_t left)
+{
+    return t->plane.base + (uint32_t)row * t->plane.dy + (uint32_t)left * t->plane.dx;
+}
+
+GN_INLINE void span_first(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    const target *t = state;
+    gn_depth *z1 = t->first + (row - t->row0) * t->stride + left, *end = z1 + (right - left);
+    uint32_t z = start_depth(t, row, left), dx = t->plane.dx;
+    do {
+        gn_depth v = (gn_depth)(z >> GN_DEPTH_SHIFT);
+        if (v < *z1)
+            *z1 = v;
+        z += dx;
+    } while (++z1 != end);
+}
+
+GN_INLINE void span_two(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    const target *t = state;
+    int32_t at = (row - t->row0) * t->stride + left;
+    gn_depth *z1 = t->first + at, *z2 = t->second + at, *end = z1 + (right - left);
+    uint32_t z = start_depth(t, row, left), dx = t->plane.dx;
+    do {
+        gn_depth v = (gn_depth)(z >> GN_DEPTH_SHIFT);
+        if (v < *z2) {
+            gn_depth nearest = *z1;
+            if (v < nearest) {
+                *z2 = nearest;
+                *z1 = v;
+            } else {
+                *z2 = v;
+            }
+        }
+        z1++;
+        z2++;
+        z += dx;
+    } while (z1 != end);
+}
+
+GN_INLINE void span_twice(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    const target *t = state;
+    int32_t at = (row - t->row0) * t->stride + left;
+    gn_depth *z1 = t->first + at, *z2 = t->second + at, *end = z1 + (right - left);
+    uint32_t z = start_depth(t, row, left), dx = t->plane.dx;
+    do {
+        gn_depth v = (gn_depth)(z >> GN_DEPTH_SHIFT);
+        if (v < *z2) {
+            *z2 = v;
+            if (v < *z1)
+                *z1 = v;
+        }
+        z1++;
+        z2++;
+        z += dx;
+    } while (z1 != end);
+}
+
+GN_INLINE void span_marked(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    const target *t = state;
+    int32_t at = (row - t->row0) * t->stride + left;
+    gn_depth *z1 = t->first + at, *z2 = t->second + at, *end = z1 + (right - left);
+    uint32_t z = start_depth(t, row, left), dx = t->plane.dx, open = t->open;
+    do {
+        gn_depth v = (gn_depth)((z >> GN_DEPTH_SHIFT & ~1u) | open);
+        if (v < *z2) {
+            gn_depth nearest = *z1;
+            if (v < nearest) {
+                *z2 = nearest;
+                *z1 = v;
+            } else {
+                *z2 = v;
+            }
+        }
+        z1++;
+        z2++;
+        z += dx;
+    } while (z1 != end);
+}
+
+/* ---- triangles ------------------------------------------------------------------------------------------------- */
+
+/* One clockwise triangle whose plane is known: an instance of the walk for each way of insertion. */
+typedef void walk(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                  const gn_window *window);
+
+static GN_NOINLINE void walk_first(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                                   const gn_window *window)
+{
+    gn_walk(v0, v1, v2, window, span_first, t);
+}
+
+static GN_NOINLINE void walk_two(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                                 const gn_window *window)
+{
+    gn_walk(v0, v1, v2, window, span_two, t);
+}
+
+static GN_NOINLINE void walk_twice(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                                   const gn_window *window)
+{
+    gn_walk(v0, v1, v2, window, span_twice, t);
+}
+
+static GN_NOINLINE void walk_marked(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                                    const gn_window *window)
+{
+    gn_walk(v0, v1, v2, window, span_marked, t);
+}
+
+/* Which orientation is left out: 1 clockwise on the map (back faces), -1 counter-clockwise (front), 0 none. */
+static int culled_sign(const gn_context *context, uint32_t object)
+{
+    if (!context->scene->objects[object].mesh->closed || context->plan.cull == GN_CULL_NONE)
+        return 0;
+    int sign = context->plan.cull == GN_CULL_BACK ? 1 : -1;
+    return context->objects[object].mirrored ? -sign : sign;
+}
+
+static walk *choose_walk(const gn_context *context, const gn_mesh *mesh)
+{
+    if (context->plan.layers == GN_LAYERS_FIRST)
+        return walk_first;
+    if (context->settings.surface == GN_MIXED)
+        return walk_marked;
+    return context->settings.surface == GN_SECOND && !mesh->closed ? walk_twice : walk_two;
+}
+
+#if GN_STATISTICS
+/* Covered centres, counted by walking again without writing. */
+GN_INLINE void count_span(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    uint64_t *const *counter = state;
+    (void)row;
+    **counter += (uint64_t)(right - left);
+}
+static void count_triangle(gn_worker *worker, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                           const gn_window *window)
+{
+    uint64_t *counter = &worker->statistics.light_texels;
+    worker->statistics.light_triangles++;
+    gn_walk(v0, v1, v2, window, count_span, &counter);
+}
+#else
+#define count_triangle(worker, v0, v1, v2, window) ((void)(worker))
+#endif
+
+/* A triangle with a corner beyond the planes or the guard band. */
+static GN_NOINLINE void insert_clipped(const gn_context *context, gn_worker *worker, target *t, walk *insert,
+                                       const gn_object *object, const uint32_t index[3], int culled,
+                                       const gn_window *window)
+{
+    gn_place corner[3];
+    gn_polygon polygon;
+    gn_triangle_places(&context->light_view, object, index, corner);
+    gn_clip_triangle(&polygon, &context->light_view, corner);
+    if (polygon.area == 0 || (polygon.area > 0 ? 1 : -1) == culled)
+        return;
+    const gn_vertex *v = polygon.v;
+    gn_make_depth_plane(&t->plane, &v[0], &v[polygon.reference], &v[polygon.reference + 1], polygon.area);
+    for (int32_t i = 1; i + 1 < polygon.count; i++) {
+        int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
+        if (area == 0 || (area > 0) != (polygon.area > 0) || gn_misses(&v[0], &v[i], &v[i + 1], window))
+            continue;
+        const gn_vertex *second = area > 0 ? &v[i] : &v[i + 1], *third = area > 0 ? &v[i + 1] : &v[i];
+        insert(t, &v[0], second, third, window);
+        count_triangle(worker, &v[0], second, third, window);
+    }
+}
+
+static void insert_mesh(const gn_context *context, gn_worker *worker, target *t, uint32_t object_index,
+                        const gn_window *window)
+{
+    const gn_object *object = &context->scene->objects[object_index];
+    const gn_mesh *mesh = object->mesh;
+    walk *insert = choose_walk(context, mesh);
+    const gn_vertex *vertices = context->vertices + context->objects[object_index].first_vertex;
+    int culled = culled_sign(context, object_index), clips = context->objects[object_index].clips;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        uint32_t index[3];
+        gn_triangle_indices(mesh, i, index);
+        const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
+        if (clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0)) {
+            insert_clipped(context, worker, t, insert, object, index, culled, window);
+            continue;
+        }
+        int64_t area = gn_area(v0, v1, v2);
+        if (area > 0 ? culled > 0 : (area == 0 || culled < 0))
+            continue;
+        if (gn_misses(v0, v1, v2, window))
+            continue;
+        gn_make_depth_plane(&t->plane, v0, v1, v2, area);
+        if (area < 0) {
+            const gn_vertex *v = v1;
+            v1 = v2;
+            v2 = v;
+        }
+        insert(t, v0, v1, v2, window);
+        count_triangle(worker, v0, v1, v2, window);
+    }
+}
+
+/* ---- bias ------------------------------------------------------------------------------------------------------ */
+
+/* The bias in units of a 32-bit depth; 0xffffffff where it exceeds the range. */
+static uint32_t make_bias(const gn_context *context)
+{
+    const gn_bias *bias = &context->settings.bias;
+    const gn_light *light = &context->light;
+    gn_scaled width = gn_scale(context->settings.map_width, 0), height = gn_scale(context->settings.map_height, 0);
+    gn_scaled value = gn_scale(bias->value, bias->unit == GN_BIAS_RANGE ? -32 : bias->unit == GN_BIAS_TEXELS ? -16 : 0);
+    if (bias->unit != GN_BIAS_RANGE) {
+        /* world: the range's share of one world unit; texels: of one texel, mean of both axes */
+        gn_scaled unit;
+        if (light->kind == GN_DIRECTIONAL) {
+            gn_scaled depth = gn_scale(light->box_depth, 0);
+            unit = gn_scaled_divide(gn_scale(1, 0), depth);
+            if (bias->unit == GN_BIAS_TEXELS) {
+                gn_scaled u = gn_scaled_divide(gn_scale(light->box_width, -1), width);
+                gn_scaled v = gn_scaled_divide(gn_scale(light->box_height, -1), height);
+                unit = gn_scaled_multiply(unit, gn_scaled_add(u, v));
+            }
+        } else {
+            /* dz/dw = f n / ((f - n) w^2) at w = sqrt(n f); a texel there is 2 tan w / N wide */
+            gn_scaled range = gn_scale((int64_t)light->far_depth - light->near_depth, 0);
+            unit = gn_scaled_divide(gn_scale(1, 0), range);
+            if (bias->unit == GN_BIAS_TEXELS) {
+                uint64_t product = gn_multiply_u((uint32_t)light->near_depth, (uint32_t)light->far_depth);
+                gn_scaled w = gn_scale(gn_square_root(product << 4), -2);
+                gn_scaled tangent = gn_scale(light->tan_half, -24);
+                gn_scaled inverse = gn_scaled_add(gn_scaled_divide(tangent, width), gn_scaled_divide(tangent, height));
+                unit = gn_scaled_multiply(unit, gn_scaled_multiply(w, inverse));
+            }
+        }
+        value = gn_scaled_multiply(value, unit);
+    }
+    value = gn_scaled_multiply(value, gn_scale(GN_DEPTH_SPAN, 1));
+    return gn_scaled_bits(value) > 32 ? 0xffffffffu : (uint32_t)gn_scaled_round(value, 0);
+}
+
+/* ---- resolve --------------------------------------------------------------------------------------------------- */
+
+GN_INLINE gn_depth add_saturated(gn_depth z, gn_depth bias)
+{
+    uint32_t room = GN_FARTHEST - (uint32_t)z;
+    return room < bias ? GN_FARTHEST : (gn_depth)(z + bias);
+}
+
+/* z1 + min((z2 - z1) / 2, bias): Weiskopf & Ertl, eq. 2; with the largest bias: the midpoint. z2 >= z1. */
+GN_INLINE gn_depth dual(gn_depth z1, gn_depth z2, gn_depth bias)
+{
+    gn_depth half = (gn_depth)((gn_depth)(z2 - z1) >> 1);
+    return (gn_depth)(z1 + (half < bias ? half : bias));
+}
+
+gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker)
+{
+    uint32_t first_row, rows, stride;
+    if (!context || !context->light_ready)
+        return context ? GN_NOT_READY : GN_BAD_ARGUMENT;
+    if (!gn_layer(context, 0, region, worker, &first_row, &rows, &stride))
+        return GN_BAD_ARGUMENT;
+    gn_depth *z1 = context->map + (size_t)first_row * stride;
+    const gn_depth *z2 = context->workers[worker].second;
+    size_t count = (size_t)rows * stride;
+    gn_depth bias = (gn_depth)(context->bias >> GN_DEPTH_SHIFT);
+    switch (context->settings.surface) {
+    case GN_CONSTANT:
+        for (size_t i = 0; i < count; i++)
+            z1[i] = add_saturated(z1[i], bias);
+        break;
+    case GN_MIDPOINT:
+        for (size_t i = 0; i < count; i++)
+            z1[i] = dual(z1[i], z2[i], GN_FARTHEST);
+        break;
+    case GN_DUAL:
+        for (size_t i = 0; i < count; i++)
+            z1[i] = dual(z1[i], z2[i], bias);
+        break;
+    case GN_SECOND:
+        if (context->plan.layers == GN_LAYERS_TWO)
+            for (size_t i = 0; i < count; i++)
+                z1[i] = z2[i];
+        break;
+    default: /* GN_MIXED: an empty texel holds the largest value, whose lowest bit is set; dual keeps it */
+        for (size_t i = 0; i < count; i++)
+            z1[i] = z1[i] & 1 ? dual(z1[i], z2[i], bias) : z2[i];
+    }
+    context->light_done = 1;
+    return GN_OK;
+}
+
+/* ---- the pass -------------------------------------------------------------------------------------------------- */
+
+gn_status gn_light_begin(gn_context *context, const gn_light *light)
+{
+    if (!context || !light)
+        return GN_BAD_ARGUMENT;
+    context->light_ready = context->light_done = context->camera_ready = 0;
+    gn_lay_out_light(context, &context->plan, &context->settings);
+    context->light = *light;
+    gn_status status =
+        gn_make_light_view(&context->light_view, light, context->settings.map_width, context->settings.map_height);
+    int32_t largest_w;
+    int inside;
+    if (status == GN_OK)
+        status = gn_transform_scene(context, &context->light_view, &largest_w, &inside);
+    if (status != GN_OK)
+        return status;
+    context->light_trusted = (uint8_t)(inside && light->kind == GN_DIRECTIONAL);
+    context->bias = make_bias(context);
+    gn_make_falloff(context);
+    context->light_ready = 1;
+    return GN_OK;
+}
+
+static void clear(gn_depth *layer, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        layer[i] = GN_FARTHEST;
+}
+
+gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
+{
+    uint32_t first_row, rows, stride;
+    if (!context || !context->light_ready)
+        return context ? GN_NOT_READY : GN_BAD_ARGUMENT;
+    if (!gn_layer(context, 0, region, worker, &first_row, &rows, &stride))
+        return GN_BAD_ARGUMENT;
+    gn_worker *w = &context->workers[worker];
+    gn_window window = {0, (int32_t)first_row, (int32_t)stride, (int32_t)(first_row + rows)};
+    target t;
+    t.first = context->map + (size_t)first_row * stride;
+    t.second = w->second;
+    t.stride = (int32_t)stride;
+    t.row0 = (int32_t)first_row;
+    clear(t.first, (size_t)rows * stride);
+    if (context->plan.layers == GN_LAYERS_TWO)
+        clear(t.second, (size_t)rows * stride);
+    for (uint32_t i = 0; i < context->scene->object_count; i++) {
+        t.open = !context->scene->objects[i].mesh->closed;
+        insert_mesh(context, w, &t, i, &window);
+    }
+    return GN_OK;
+}
+
+const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t region, uint32_t worker,
+                         uint32_t *first_row, uint32_t *rows, uint32_t *stride)
+{
+    if (!context || region >= context->plan.light_regions || worker >= context->settings.workers || layer > 1 ||
+        (layer == 1 && context->plan.layers != GN_LAYERS_TWO))
+        return 0;
+    uint32_t first = region * context->plan.map_rows, height = context->settings.map_height;
+    *first_row = first;
+    *rows = first + context->plan.map_rows > height ? height - first : context->plan.map_rows;
+    *stride = context->settings.map_width;
+    return layer ? context->workers[worker].second : context->map + (size_t)first * *stride;
+}
+
+gn_status gn_light_pass(gn_context *context, const gn_light *light)
+{
+    gn_status status = gn_light_begin(context, light);
+    for (uint32_t i = 0; status == GN_OK && i < context->plan.light_regions; i++) {
+        status = gn_light_layers(context, i, 0);
+        if (status == GN_OK)
+            status = gn_light_resolve(context, i, 0);
+    }
+    return status;
+}

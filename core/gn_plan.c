@@ -1,0 +1,293 @@
+/* Planning: what a scene needs, checked and laid out before anything is rendered. */
+#include "gn_context.h"
+
+gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_size)
+{
+    gn_settings s = {0};
+    s.width = width;
+    s.height = height;
+    s.map_width = s.map_height = map_size;
+    s.surface = GN_SECOND;
+    s.format = GN_RGB888;
+    s.workers = 1;
+    s.bias.unit = GN_BIAS_TEXELS;
+    s.bias.value = 2 << 16;
+    return s;
+}
+
+static gn_status check_settings(const gn_settings *s)
+{
+    if (s->width < 1 || s->width > GN_MAX_SIZE || s->height < 1 || s->height > GN_MAX_SIZE || s->map_width < 1 ||
+        s->map_width > GN_MAX_SIZE || s->map_height < 1 || s->map_height > GN_MAX_SIZE || s->workers < 1 ||
+        s->workers > 64 || s->region_width > GN_MAX_SIZE || s->region_height > GN_MAX_SIZE || s->map_rows > GN_MAX_SIZE)
+        return GN_OUT_OF_RANGE;
+    if (s->cull > GN_CULL_FRONT || s->layers > GN_LAYERS_TWO || s->surface > GN_MIXED || s->format > GN_RGB565 ||
+        s->mask > 1 || s->bias.unit > GN_BIAS_RANGE)
+        return GN_BAD_ARGUMENT;
+    if (s->bias.unit == GN_BIAS_WORLD && s->bias.value > (1u << 28))
+        return GN_OUT_OF_RANGE;
+    return GN_OK;
+}
+
+static gn_status check_mesh(const gn_mesh *mesh)
+{
+    if (!mesh || (mesh->vertex_count && !mesh->vertices) || (mesh->triangle_count && !mesh->indices))
+        return GN_BAD_ARGUMENT;
+    if (mesh->index_size != 2 && mesh->index_size != 4)
+        return GN_BAD_MESH;
+    if ((uintptr_t)mesh->indices % mesh->index_size)
+        return GN_BAD_MESH;
+    if (mesh->vertex_count >= (1u << 28) || mesh->triangle_count >= (1u << 28))
+        return GN_TOO_MANY;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        for (int i = 0; i < 3; i++)
+            if (mesh->vertices[v][i] < -GN_WORLD_MAX || mesh->vertices[v][i] > GN_WORLD_MAX)
+                return GN_OUT_OF_RANGE;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        uint32_t index[3];
+        gn_triangle_indices(mesh, t, index);
+        if (index[0] >= mesh->vertex_count || index[1] >= mesh->vertex_count || index[2] >= mesh->vertex_count)
+            return GN_BAD_MESH;
+    }
+    return GN_OK;
+}
+
+static gn_status check_model(const gn_model *model)
+{
+    if (model->shift > 62)
+        return GN_OUT_OF_RANGE;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if (model->m[i][j] < -(1 << 30) || model->m[i][j] > (1 << 30))
+                return GN_OUT_OF_RANGE;
+    return GN_OK;
+}
+
+static uint32_t bits_for(uint32_t count)
+{
+    uint32_t bits = 0;
+    while (bits < 32 && ((uint64_t)1 << bits) < count)
+        bits++;
+    return bits;
+}
+
+/* Count and check the scene; *closed: whether all its meshes are, *bits: of a triangle number. */
+static gn_status check_scene(const gn_scene *scene, gn_plan *plan, int *closed, uint32_t *bits)
+{
+    uint64_t triangles = 0, vertices = 0;
+    uint32_t most = 1;
+    *closed = 1;
+    if (scene->object_count && !scene->objects)
+        return GN_BAD_ARGUMENT;
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        const gn_object *object = &scene->objects[i];
+        gn_status status = GN_OK;
+        /* instances of one mesh mostly follow each other: check it once */
+        if (i == 0 || object->mesh != scene->objects[i - 1].mesh)
+            status = check_mesh(object->mesh);
+        if (status == GN_OK && object->model)
+            status = check_model(object->model);
+        if (status != GN_OK)
+            return status;
+        triangles += object->mesh->triangle_count;
+        vertices += object->mesh->vertex_count;
+        if (object->mesh->triangle_count > most)
+            most = object->mesh->triangle_count;
+        if (!object->mesh->closed)
+            *closed = 0;
+    }
+    *bits = bits_for(most);
+    /* the highest identifier is kept for "no triangle" */
+    if (bits_for(scene->object_count + 1) + *bits > 32 || triangles >= (1u << 28) || vertices >= (1u << 28))
+        return GN_TOO_MANY;
+    plan->triangles = (uint32_t)triangles;
+    plan->vertices = (uint32_t)vertices;
+    return GN_OK;
+}
+
+/* The cheapest layers that give the surface, unless named; refuse what makes no sense. */
+static gn_status choose_layers(gn_plan *plan, const gn_settings *s, int all_closed)
+{
+    int back_layer = s->surface == GN_SECOND && s->layers != GN_LAYERS_TWO &&
+                     (s->cull == GN_CULL_FRONT || (all_closed && s->cull == GN_CULL_AUTO));
+    if (s->surface == GN_SECOND && s->layers == GN_LAYERS_FIRST && s->cull == GN_CULL_AUTO)
+        back_layer = 1;
+    int one = s->surface == GN_CONSTANT || back_layer;
+    plan->layers = s->layers ? s->layers : (one ? GN_LAYERS_FIRST : GN_LAYERS_TWO);
+    plan->cull = s->cull;
+    if (s->cull == GN_CULL_AUTO)
+        plan->cull = back_layer ? GN_CULL_FRONT : s->surface == GN_DUAL ? GN_CULL_BACK : GN_CULL_NONE;
+    if ((plan->layers == GN_LAYERS_FIRST) != one)
+        return GN_UNSUPPORTED;
+    if (plan->layers == GN_LAYERS_TWO && plan->cull == GN_CULL_FRONT)
+        return GN_UNSUPPORTED;
+    if (s->surface == GN_MIXED && plan->cull != GN_CULL_NONE)
+        return GN_UNSUPPORTED;
+    return GN_OK;
+}
+
+static size_t align_up(size_t bytes)
+{
+    return (bytes + GN_ALIGNMENT - 1) / GN_ALIGNMENT * GN_ALIGNMENT;
+}
+
+/* Take bytes from the block, or only count them. */
+static void *take(uint8_t *base, size_t *used, uint64_t bytes)
+{
+    void *p = base ? base + *used : 0;
+    *used = align_up(*used + (size_t)bytes);
+    return p;
+}
+
+/* Head of the block: what stays between the passes. Returns its size. */
+static size_t lay_out_head(gn_context *context, const gn_scene *scene, const gn_settings *settings)
+{
+    uint8_t *base = (uint8_t *)context;
+    size_t used = align_up(sizeof(gn_context));
+    gn_object_state *objects = take(base, &used, (uint64_t)scene->object_count * sizeof *objects);
+    gn_worker *workers = take(base, &used, (uint64_t)settings->workers * sizeof *workers);
+    gn_depth *map = take(base, &used, (uint64_t)settings->map_width * settings->map_height * sizeof *map);
+    if (context) {
+        context->objects = objects;
+        context->workers = workers;
+        context->map = map;
+        context->shared = base + used;
+    }
+    return used;
+}
+
+size_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings)
+{
+    uint8_t *base = context ? context->shared : 0;
+    size_t used = 0;
+    gn_vertex *vertices = take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
+    if (context)
+        context->vertices = vertices;
+    for (uint32_t i = 0; plan->layers == GN_LAYERS_TWO && i < settings->workers; i++) {
+        gn_depth *second = take(base, &used, (uint64_t)plan->map_rows * settings->map_width * sizeof *second);
+        if (context)
+            context->workers[i].second = second;
+    }
+    return used;
+}
+
+size_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings)
+{
+    uint8_t *base = context ? context->shared : 0;
+    size_t used = 0;
+    uint32_t bands, levels, bins, pixels = (uint32_t)plan->region_width * plan->region_height;
+    gn_count_bins(plan, settings, &bands, &levels, &bins);
+    gn_vertex *vertices = take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
+    uint32_t *first = take(base, &used, bins ? ((uint64_t)bins + 1) * 4 : 0);
+    uint32_t *items = take(base, &used, bins ? (uint64_t)plan->triangles * 4 : 0);
+    uint64_t pixel_bytes = settings->format == GN_RGB888 ? 3 : settings->format == GN_RGB565 ? 2 : 0;
+    void *colour = take(base, &used, pixels * pixel_bytes);
+    uint8_t *mask = take(base, &used, settings->mask ? pixels : 0);
+    if (context) {
+        context->vertices = vertices;
+        context->bin_first = first;
+        context->bin_items = items;
+        context->bands = bands;
+        context->bin_levels = (uint8_t)levels;
+        context->bin_count = bins;
+        context->colour_buffer = pixel_bytes ? colour : 0;
+        context->mask_buffer = settings->mask ? mask : 0;
+    }
+    for (uint32_t i = 0; i < settings->workers; i++) {
+        uint32_t *q = take(base, &used, (uint64_t)pixels * 4), *triangle = take(base, &used, (uint64_t)pixels * 4);
+        gn_colour_pair *colours = take(base, &used, GN_COLOUR_CACHE * sizeof *colours);
+        if (context) {
+            context->workers[i].q = q;
+            context->workers[i].triangle = triangle;
+            context->workers[i].colours = colours;
+        }
+    }
+    return used;
+}
+
+gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings)
+{
+    if (!plan || !scene || !settings)
+        return GN_BAD_ARGUMENT;
+    gn_plan p = {0};
+    int all_closed;
+    uint32_t bits;
+    gn_status status = check_settings(settings);
+    if (status == GN_OK)
+        status = check_scene(scene, &p, &all_closed, &bits);
+    if (status == GN_OK)
+        status = choose_layers(&p, settings, all_closed);
+    if (status != GN_OK)
+        return status;
+    /* Regions of about 2560 pixels: 20 KiB a worker. Whole rows keep spans long. */
+    uint32_t width = settings->region_width ? settings->region_width : settings->width > 2560 ? 2560 : settings->width;
+    width = width > settings->width ? settings->width : width;
+    uint32_t height = settings->region_height ? settings->region_height : width > 2560 ? 1 : 2560 / width;
+    height = height > settings->height ? settings->height : height;
+    uint32_t rows =
+        settings->map_rows && settings->map_rows < settings->map_height ? settings->map_rows : settings->map_height;
+    p.region_width = (uint16_t)width;
+    p.region_height = (uint16_t)height;
+    p.map_rows = (uint16_t)rows;
+    p.light_regions = (settings->map_height + rows - 1) / rows;
+    p.camera_regions = (settings->width + width - 1) / width * ((settings->height + height - 1) / height);
+    p.map_bytes = (size_t)settings->map_width * settings->map_height * sizeof(gn_depth);
+    size_t head = lay_out_head(0, scene, settings);
+    p.light_bytes = head + gn_lay_out_light(0, &p, settings);
+    p.camera_bytes = head + gn_lay_out_camera(0, &p, settings);
+    p.bytes = p.light_bytes > p.camera_bytes ? p.light_bytes : p.camera_bytes;
+    *plan = p;
+    return GN_OK;
+}
+
+gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings *settings, void *memory, size_t bytes)
+{
+    gn_plan plan;
+    if (!context || !memory)
+        return GN_BAD_ARGUMENT;
+    gn_status status = gn_make_plan(&plan, scene, settings);
+    if (status != GN_OK)
+        return status;
+    if ((uintptr_t)memory % GN_ALIGNMENT)
+        return GN_MISALIGNED;
+    if (bytes < plan.bytes)
+        return GN_TOO_SMALL;
+    gn_context *c = memory;
+    gn_context empty = {0};
+    *c = empty;
+    c->scene = scene;
+    c->settings = *settings;
+    c->plan = plan;
+    lay_out_head(c, scene, settings);
+    gn_plan counted;
+    int closed;
+    (void)check_scene(scene, &counted, &closed, &c->triangle_bits);
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        gn_object_state state = {first, 0, 0};
+        c->objects[i] = state;
+        first += scene->objects[i].mesh->vertex_count;
+    }
+    for (uint32_t i = 0; i < settings->workers; i++) {
+        gn_worker worker = {0};
+        c->workers[i] = worker;
+    }
+    *context = c;
+    return GN_OK;
+}
+
+void gn_get_statistics(const gn_context *context, gn_statistics *statistics)
+{
+    gn_statistics sum = {0};
+    for (uint32_t i = 0; i < context->settings.workers; i++) {
+        const gn_statistics *s = &context->workers[i].statistics;
+        sum.light_triangles += s->light_triangles;
+        sum.light_texels += s->light_texels;
+        sum.camera_triangles += s->camera_triangles;
+        sum.camera_fragments += s->camera_fragments;
+        sum.pixels_shaded += s->pixels_shaded;
+        sum.pixels_tested += s->pixels_tested;
+    }
+    sum.map_bytes = context->plan.map_bytes;
+    *statistics = sum;
+}

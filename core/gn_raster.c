@@ -1,0 +1,138 @@
+/* Triangle set-up: the gradients of a plane from one reciprocal of its area. */
+#include "gn_raster.h"
+
+/* v = mantissa 2^(32 - shift), the mantissa's top bit set; v != 0, v < 2^63. */
+typedef struct normalised {
+    uint32_t mantissa;
+    int32_t shift;
+} normalised;
+
+GN_INLINE normalised normalise(uint64_t v)
+{
+    uint32_t high = (uint32_t)(v >> 32), low = (uint32_t)v;
+    normalised n;
+    if (high) {
+        unsigned zeros = gn_leading_zeros(high); /* at least 1 */
+        n.mantissa = (high << zeros) | (low >> (32 - zeros));
+        n.shift = (int32_t)zeros;
+    } else {
+        unsigned zeros = gn_leading_zeros(low);
+        n.mantissa = low << zeros;
+        n.shift = 32 + (int32_t)zeros;
+    }
+    return n;
+}
+
+GN_INLINE uint64_t magnitude(int64_t v)
+{
+    return v < 0 ? 0u - (uint64_t)v : (uint64_t)v;
+}
+
+/* |n| / area = result 2^(*shift), result in [2^30, 2^32) or 0: three truncations, relative error below 2^-29. */
+GN_INLINE uint32_t quotient(int64_t n, uint32_t reciprocal, int32_t area_shift, int32_t *shift)
+{
+    if (n == 0) {
+        *shift = 0;
+        return 0;
+    }
+    normalised v = normalise(magnitude(n));
+    *shift = area_shift - v.shift - 31;
+    return (uint32_t)(gn_multiply_u(v.mantissa, reciprocal) >> 32);
+}
+
+/* The numerators of the two gradients and the reciprocal of the area. */
+typedef struct slopes {
+    int64_t nx, ny;
+    uint32_t reciprocal;
+    int32_t area_shift;
+} slopes;
+
+GN_INLINE slopes make_slopes(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
+{
+    int32_t dx1 = v1->x - v0->x, dy1 = v1->y - v0->y, dz1 = (int32_t)(v1->depth - v0->depth);
+    int32_t dx2 = v2->x - v0->x, dy2 = v2->y - v0->y, dz2 = (int32_t)(v2->depth - v0->depth);
+    slopes s;
+    s.nx = gn_multiply(dz1, dy2) - gn_multiply(dz2, dy1);
+    s.ny = gn_multiply(dz2, dx1) - gn_multiply(dz1, dx2);
+    if (area < 0) {
+        s.nx = -s.nx;
+        s.ny = -s.ny;
+    }
+    normalised a = normalise(magnitude(area));
+    s.reciprocal = gn_reciprocal_exact(a.mantissa);
+    s.area_shift = a.shift;
+    return s;
+}
+
+/* round(512 |n| / A) with n's sign; 0 and *steep where that reaches 2^30. */
+GN_INLINE uint32_t depth_gradient(int64_t n, const slopes *s, int *steep)
+{
+    int32_t shift;
+    uint32_t q = quotient(n, s->reciprocal, s->area_shift, &shift);
+    int32_t right = -9 - shift;
+    if (q == 0 || right > 32)
+        return 0;
+    if (right < 1) {
+        *steep = 1;
+        return 0;
+    }
+    uint32_t g = ((q >> (right - 1)) + 1) >> 1;
+    if (g >> 30)
+        *steep = 1;
+    return n < 0 ? 0u - g : g;
+}
+
+void gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                         int64_t area)
+{
+    slopes s = make_slopes(v0, v1, v2, area);
+    int steep = 0;
+    uint32_t gx = depth_gradient(s.nx, &s, &steep), gy = depth_gradient(s.ny, &s, &steep);
+    if (GN_UNLIKELY(steep)) {
+        uint32_t farthest = v0->depth;
+        farthest = v1->depth > farthest ? v1->depth : farthest;
+        farthest = v2->depth > farthest ? v2->depth : farthest;
+        plane->base = 2 * farthest;
+        plane->dx = plane->dy = 0;
+        return;
+    }
+    int64_t shift = gn_multiply(128 - v0->x, (int32_t)gx) + gn_multiply(128 - v0->y, (int32_t)gy);
+    plane->base = 2 * v0->depth + (uint32_t)gn_floor_shift_64(shift, 8);
+    plane->dx = gx;
+    plane->dy = gy;
+}
+
+/* floor(2^32 |n| / A) with n's sign: Q a 1/256 pixel, 32 fraction bits; *steep where that reaches 2^54. */
+GN_INLINE uint64_t q_gradient(int64_t n, const slopes *s, int *steep)
+{
+    int32_t shift;
+    uint64_t q = quotient(n, s->reciprocal, s->area_shift, &shift);
+    shift += 32;
+    if (q == 0 || shift <= -32)
+        return 0;
+    if (shift > 22) {
+        *steep = 1;
+        return 0;
+    }
+    uint64_t g = shift < 0 ? q >> -shift : q << shift;
+    return n < 0 ? 0u - g : g;
+}
+
+void gn_make_q_plane(gn_q_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
+{
+    slopes s = make_slopes(v0, v1, v2, area);
+    int steep = 0;
+    uint64_t gx = q_gradient(s.nx, &s, &steep), gy = q_gradient(s.ny, &s, &steep);
+    if (GN_UNLIKELY(steep)) {
+        uint32_t farthest = v0->depth;
+        farthest = v1->depth < farthest ? v1->depth : farthest;
+        farthest = v2->depth < farthest ? v2->depth : farthest;
+        plane->base = (uint64_t)farthest << 32;
+        plane->dx = plane->dy = 0;
+        return;
+    }
+    plane->base =
+        ((uint64_t)v0->depth << 32) + (uint64_t)(int64_t)(128 - v0->x) * gx + (uint64_t)(int64_t)(128 - v0->y) * gy;
+    plane->dx = gx << 8;
+    plane->dy = gy << 8;
+}

@@ -1,0 +1,193 @@
+/* Raster: a triangle as three edges and linear expressions, and one walk over its spans for both passes.
+ *
+ * In the manner of PixelFlow everything on a triangle is a linear expression A x + B y + C, stepped by forward
+ * differences. Coordinates count 1/256 pixel; the centre of column i lies at 256 i + 128; y points down. A span holds
+ * the columns [left, right) whose centres lie between two edges, with the same ceiling at both ends, and a triangle
+ * the rows [top, bottom) by the same rule: that is the top-left rule, and a shared edge, always evaluated from its
+ * upper vertex, gives each centre to exactly one side. Formats, bounds: docs/number-formats.md.
+ *
+ * Cost: two 32-bit divisions an edge, one wide division a triangle. Not here: clipping (gn_clip.h), what a span does
+ * (gn_light_pass.c, gn_visibility.c). */
+#ifndef GN_RASTER_H
+#define GN_RASTER_H
+
+#include "gn_fixed.h"
+
+/* A projected vertex. |x|, |y| < 2^21. depth: light pass: Z, 31 bits; camera pass: Q, 30 bits, greater is nearer;
+ * 0: the vertex cannot be projected and its triangles must be clipped. */
+typedef struct gn_vertex {
+    int32_t x, y;
+    uint32_t depth;
+} gn_vertex;
+
+/* The rows and columns that may be written: [row0, row1) x [column0, column1). */
+typedef struct gn_window {
+    int32_t column0, row0, column1, row1;
+} gn_window;
+
+/* First row (or column) whose centre is at or beyond v. */
+GN_INLINE int32_t gn_first_centre(int32_t v)
+{
+    return gn_floor_shift(v + 127, 8);
+}
+
+/* Twice the area, in 1/256 pixel squared: positive where v0, v1, v2 run clockwise on the screen. |A| < 2^43. */
+GN_INLINE int64_t gn_area(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2)
+{
+    return gn_multiply(v1->x - v0->x, v2->y - v0->y) - gn_multiply(v2->x - v0->x, v1->y - v0->y);
+}
+
+/* Does the triangle's box hold no centre inside the window? */
+GN_INLINE int gn_misses(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, const gn_window *window)
+{
+    int32_t left = v0->x < v1->x ? v0->x : v1->x, right = v0->x < v1->x ? v1->x : v0->x;
+    int32_t top = v0->y < v1->y ? v0->y : v1->y, bottom = v0->y < v1->y ? v1->y : v0->y;
+    left = v2->x < left ? v2->x : left;
+    right = v2->x > right ? v2->x : right;
+    top = v2->y < top ? v2->y : top;
+    bottom = v2->y > bottom ? v2->y : bottom;
+    left = gn_first_centre(left);
+    right = gn_first_centre(right);
+    top = gn_first_centre(top);
+    bottom = gn_first_centre(bottom);
+    return left >= right || top >= bottom || right <= window->column0 || left >= window->column1 ||
+           bottom <= window->row0 || top >= window->row1;
+}
+
+/* ---- linear expressions ---------------------------------------------------------------------------------------- */
+
+/* Depth in the light pass, modulo 2^32: z(i, j) = base + i dx + j dy, twice the vertices' Z. */
+typedef struct gn_depth_plane {
+    uint32_t base, dx, dy;
+} gn_depth_plane;
+
+/* Q in the camera pass, with 32 fraction bits, modulo 2^64: Q(i, j) = floor((base + i dx + j dy) / 2^32). */
+typedef struct gn_q_plane {
+    uint64_t base, dx, dy;
+} gn_q_plane;
+
+/* The plane through three vertices with gradients g = 512 N / A, relative error 2^-29, + 1/2. Where a gradient reaches
+ * 2^30, a quarter of the depth range in one texel, the triangle is all but edge-on: z is then constant, the farthest
+ * vertex's. area != 0, of either sign. */
+void gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                         int64_t area);
+
+/* The same for Q: gradients with 32 fraction bits, relative error 2^-29; too steep: constant, the farthest Q. */
+void gn_make_q_plane(gn_q_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area);
+
+/* ---- edges ----------------------------------------------------------------------------------------------------- */
+
+/* The first column at or right of an edge, row by row: x = ceil((X - 128) / 256) exactly, in 32 bits. error counts
+ * 1/(256 dy) columns past column x - 1, less 256 dy + 1: in [-256 dy, 0). */
+typedef struct gn_edge {
+    int32_t x, error;
+    int32_t step, error_step, denominator;
+} gn_edge;
+
+/* The edge from its upper vertex down to the lower one, at a row whose centre is at or below the upper vertex and not
+ * below the lower one. */
+GN_INLINE void gn_edge_start(gn_edge *edge, const gn_vertex *upper, const gn_vertex *lower, int32_t row)
+{
+    int32_t dx = lower->x - upper->x;
+    uint32_t dy = (uint32_t)(lower->y - upper->y), t = (uint32_t)(256 * row + 128 - upper->y);
+    uint32_t width = dx < 0 ? 0u - (uint32_t)dx : (uint32_t)dx;
+    uint32_t quotient = width / dy, s = width - quotient * dy;
+    int32_t q = (int32_t)quotient;
+    if (dx < 0) { /* floor and its remainder, which is never negative */
+        q = -q;
+        if (s) {
+            q--;
+            s = dy - s;
+        }
+    }
+    uint32_t p, m;
+    if (GN_LIKELY(t < 2048)) { /* t s < 2^32 */
+        uint32_t ts = t * s;
+        p = ts / dy;
+        m = ts - p * dy;
+    } else {
+        p = gn_divide(gn_multiply_u(t, s), dy);
+        m = t * s - p * dy;
+    }
+    int32_t u = upper->x - 128 + (int32_t)t * q + (int32_t)p;
+    int32_t remainder = (int32_t)(((uint32_t)u & 255u) * dy + m);
+    edge->denominator = (int32_t)(dy << 8);
+    edge->x = gn_floor_shift(u, 8);
+    edge->error = -1;
+    if (remainder) {
+        edge->x++;
+        edge->error = remainder - 1 - edge->denominator;
+    }
+    edge->step = q;
+    edge->error_step = (int32_t)(s << 8);
+}
+
+GN_INLINE void gn_edge_step(gn_edge *edge)
+{
+    edge->x += edge->step;
+    edge->error += edge->error_step;
+    if (edge->error >= 0) {
+        edge->error -= edge->denominator;
+        edge->x++;
+    }
+}
+
+/* ---- the walk -------------------------------------------------------------------------------------------------- */
+
+/* What to do with a span: columns [left, right) of a row, left < right. */
+typedef void gn_span(const void *state, int32_t row, int32_t left, int32_t right);
+
+/* Call span for every row of the clockwise triangle (area > 0) inside the window. span must be an inline function. */
+GN_INLINE void gn_walk(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, const gn_window *window,
+                       gn_span *span, const void *state)
+{
+    /* Rotate so that the top vertex comes first: the next one is then on the right chain, the last on the left. */
+    const gn_vertex *top = v0, *next = v1, *last = v2;
+    if (v1->y < v0->y && v1->y <= v2->y) {
+        top = v1, next = v2, last = v0;
+    } else if (v2->y < v0->y && v2->y < v1->y) {
+        top = v2, next = v0, last = v1;
+    }
+    int32_t row = gn_first_centre(top->y), row_next = gn_first_centre(next->y), row_last = gn_first_centre(last->y);
+    int32_t bottom = row_next < row_last ? row_last : row_next;
+    row = row < window->row0 ? window->row0 : row;
+    bottom = bottom > window->row1 ? window->row1 : bottom;
+    if (row >= bottom)
+        return;
+
+    gn_edge left, right;
+    int32_t end = bottom;
+    if (row < row_last) {
+        gn_edge_start(&left, top, last, row);
+        end = row_last < end ? row_last : end;
+    } else {
+        gn_edge_start(&left, last, next, row);
+    }
+    if (row < row_next) {
+        gn_edge_start(&right, top, next, row);
+        end = row_next < end ? row_next : end;
+    } else {
+        gn_edge_start(&right, next, last, row);
+    }
+    int32_t column0 = window->column0, column1 = window->column1;
+    for (;;) {
+        do {
+            int32_t l = left.x, r = right.x;
+            l = l < column0 ? column0 : l;
+            r = r > column1 ? column1 : r;
+            if (l < r)
+                span(state, row, l, r);
+            gn_edge_step(&left);
+            gn_edge_step(&right);
+        } while (++row < end);
+        if (row >= bottom)
+            return;
+        if (row_next < row_last)
+            gn_edge_start(&right, next, last, row);
+        else
+            gn_edge_start(&left, last, next, row);
+        end = bottom;
+    }
+}
+
+#endif

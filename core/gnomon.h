@@ -1,0 +1,317 @@
+/* gnomon: hard shadows in integer arithmetic, for machines without a GPU and often without an FPU.
+ *
+ * Synopsis (the whole of it: a scene in, shadowed pixels out):
+ *
+ *     #include "gnomon.h"
+ *
+ *     static int flush(void *user, const gn_pixels *p)       // send p->width x p->height pixels to the display
+ *     { display_write(p->x, p->y, p->width, p->height, p->colour); (void)user; return 0; }
+ *
+ *     static uint64_t memory[12 * 1024];                      // gn_plan says how many bytes are needed
+ *
+ *     gn_settings settings = gn_default_settings(320, 240, 128);
+ *     gn_plan plan;
+ *     gn_context *context;
+ *     gn_camera camera;
+ *     gn_light light;
+ *     if (gn_make_plan(&plan, &scene, &settings) != GN_OK || plan.bytes > sizeof memory) return 1;
+ *     gn_init(&context, &scene, &settings, memory, sizeof memory);
+ *     gn_look_at(&camera, eye, target, up);
+ *     gn_perspective(&camera, GN_DEGREES(40), near, far);
+ *     gn_directional_light(&light, direction, 0);
+ *     gn_fit_light(&light, &scene);
+ *     gn_light_pass(context, &light);                         // once for a light and casters that stand still
+ *     gn_camera_pass(context, &camera, flush, 0);             // as often as the camera moves
+ *
+ * No heap, no float, no globals, no recursion; libc is not needed but for memset. Scenes and meshes are const and may
+ * stay in flash. Number formats, ranges and error bounds: docs/number-formats.md. Version policy: GN_BITS_VERSION
+ * changes whenever a pixel or a map value of any scene changes.
+ */
+#ifndef GNOMON_H
+#define GNOMON_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define GN_VERSION "0.1.0"
+#define GN_BITS_VERSION 1
+
+/* Bits of a stored depth, 16 or 32: trades map memory against depth resolution. 16-bit layers are the upper half of
+ * the 32-bit ones, bit for bit. The library and its users must be compiled with the same value. */
+#ifndef GN_DEPTH_BITS
+#define GN_DEPTH_BITS 16
+#endif
+#if GN_DEPTH_BITS == 16
+typedef uint16_t gn_depth;
+#elif GN_DEPTH_BITS == 32
+typedef uint32_t gn_depth;
+#else
+#error "GN_DEPTH_BITS must be 16 or 32"
+#endif
+
+/* 1: count triangles, texels and pixels (a few additions a span); 0: gn_get_statistics reports zeros, at no cost. */
+#ifndef GN_STATISTICS
+#define GN_STATISTICS 0
+#endif
+
+/* ---- status codes ---------------------------------------------------------------------------------------------- */
+
+typedef enum gn_status {
+    GN_OK = 0,
+    GN_STOPPED = -1,      /* the flush callback asked to stop: the frame is incomplete, the context still good */
+    GN_BAD_ARGUMENT = -2, /* a null pointer, an unknown enumerator, a region or worker that does not exist */
+    GN_OUT_OF_RANGE = -3, /* a number outside the range that its comment states */
+    GN_TOO_SMALL = -4,    /* the memory block is smaller than gn_plan.bytes */
+    GN_MISALIGNED = -5,   /* the memory block is not aligned to GN_ALIGNMENT */
+    GN_BAD_MESH = -6,     /* an index beyond the vertices, or an index size other than 2 and 4 */
+    GN_TOO_MANY = -7,     /* objects x triangles do not fit 32-bit identifiers, or a size overflows */
+    GN_UNSUPPORTED = -8,  /* settings that make no sense together */
+    GN_NOT_READY = -9     /* called out of order, for instance a camera region before gn_camera_begin */
+} gn_status;
+
+/* ---- numbers --------------------------------------------------------------------------------------------------- */
+
+typedef int32_t gn_q2_30;  /* signed, 30 fraction bits: components of unit vectors */
+typedef int32_t gn_q16_16; /* signed, 16 fraction bits */
+typedef uint32_t gn_q8_24; /* unsigned, 24 fraction bits: tangents, up to 128 */
+typedef uint32_t gn_angle; /* 2^32 is a full turn */
+
+/* Whole degrees (0 to 359) as a gn_angle, rounded to nearest. */
+#define GN_DEGREES(d) ((gn_angle)((((uint64_t)(d) << 32) + 180u) / 360u))
+
+/* World coordinates are integers in a unit that the caller chooses. Vertices (after the model matrix) must lie within
+ * +-GN_WORLD_MAX, eyes, targets and light positions within +-GN_EYE_MAX. Use as much of the range as the scene allows.
+ */
+#define GN_WORLD_MAX ((int32_t)1 << 24)
+#define GN_EYE_MAX ((int32_t)1 << 27)
+#define GN_MAX_SIZE 4096 /* of maps and images, each side */
+
+typedef struct gn_rgb {
+    uint8_t r, g, b;
+} gn_rgb;
+
+/* ---- the scene (const, may be in flash) ------------------------------------------------------------------------ */
+
+/* Triangles over shared vertices. closed: counter-clockwise from outside, every edge used equally often in both
+ * directions; may be culled in the light pass. Not closed: two-sided, never culled. */
+typedef struct gn_mesh {
+    const int32_t (*vertices)[3]; /* model coordinates, |v| <= GN_WORLD_MAX */
+    const void *indices;          /* three a triangle, uint16_t or uint32_t, aligned to their size */
+    uint32_t vertex_count;
+    uint32_t triangle_count;
+    uint8_t index_size; /* 2 or 4 bytes */
+    uint8_t closed;     /* 0 or 1 */
+} gn_mesh;
+
+/* world = floor((m v + 2^(shift-1)) / 2^shift) + t: |m| <= 2^30, shift 0..62, t in world units. A negative determinant
+ * mirrors the mesh; its facing is mirrored with it. */
+typedef struct gn_model {
+    int32_t m[3][3];
+    int32_t t[3];
+    uint8_t shift;
+} gn_model;
+
+typedef struct gn_object {
+    const gn_mesh *mesh;
+    const gn_model *model; /* 0: identity. May change between passes (animation) */
+    gn_rgb colour;
+} gn_object;
+
+typedef struct gn_scene {
+    const gn_object *objects;
+    uint32_t object_count;
+    gn_rgb background; /* of pixels that see no surface */
+    uint16_t ambient;  /* fraction of 65535: colour = c (ambient + (1 - ambient) max(N.L, 0) lit), rounded half up */
+} gn_scene;
+
+/* ---- cameras and lights ---------------------------------------------------------------------------------------- */
+
+typedef enum gn_projection { GN_PERSPECTIVE = 0, GN_ORTHOGRAPHIC = 1 } gn_projection;
+
+typedef struct gn_camera {
+    uint8_t projection; /* gn_projection */
+    int32_t eye[3];
+    gn_q2_30 right[3], up[3], forward[3]; /* orthonormal; right x up = -forward */
+    gn_q8_24 tan_half;                    /* perspective: tan(fovy/2), 2^-8 to 64 */
+    int32_t half_height;                  /* orthographic: half the height of the image, world units, 1 to 2^26 */
+    int32_t near_depth,
+        far_depth; /* along forward, 0 < near < far <= 2^28; they clip (orthographic: near may be < 0) */
+} gn_camera;
+
+typedef enum gn_light_kind { GN_DIRECTIONAL = 0, GN_SPOT = 1 } gn_light_kind;
+
+typedef struct gn_light {
+    uint8_t kind;                         /* gn_light_kind */
+    gn_q2_30 right[3], up[3], forward[3]; /* forward: the way light travels */
+    /* directional: the box that the map covers, in world units along right (u), up (v) and forward (z) */
+    int32_t box_u, box_v, box_z;              /* smallest u, smallest v, smallest z */
+    int32_t box_width, box_height, box_depth; /* 1 to 2^28 */
+    /* spot: a square frustum */
+    int32_t position[3];
+    gn_q8_24 tan_half;             /* tan(fovy/2), 2^-8 to 64 */
+    int32_t near_depth, far_depth; /* 0 < near < far <= 2^28; they clip */
+} gn_light;
+
+/* Set eye and axes of a camera that looks from eye to target. Touches nothing else of *camera.
+ * eye, target: |.| <= GN_EYE_MAX; up: any vector not parallel to the view, |.| <= GN_EYE_MAX.
+ * GN_OUT_OF_RANGE: eye equals target, up is parallel to the view, or a coordinate is too large. */
+gn_status gn_look_at(gn_camera *camera, const int32_t eye[3], const int32_t target[3], const int32_t up[3]);
+
+/* Make the camera perspective. fovy: full vertical angle, 1/2 to 178 degrees. */
+gn_status gn_perspective(gn_camera *camera, gn_angle fovy, int32_t near_depth, int32_t far_depth);
+
+/* Make the camera orthographic. */
+gn_status gn_orthographic(gn_camera *camera, int32_t half_height, int32_t near_depth, int32_t far_depth);
+
+/* Make a directional light. direction: the way light travels, any length, |.| <= GN_EYE_MAX; up: 0 for the default,
+ * which is +y, or +z where |y| of the direction exceeds 0.999. The box is left empty: gn_fit_light sets it. */
+gn_status gn_directional_light(gn_light *light, const int32_t direction[3], const int32_t up[3]);
+
+/* Fit the box of a directional light to all vertices of the scene: width = height = 1.02 x the larger extent in u and
+ * v about the centre, depth 1.02 x the extent in z. A firmware whose casters move may set a larger box itself. */
+gn_status gn_fit_light(gn_light *light, const gn_scene *scene);
+
+/* Make a spot light. Up as for gn_directional_light. fovy: full angle, 1/2 to 178 degrees. */
+gn_status gn_spot_light(gn_light *light, const int32_t position[3], const int32_t target[3], const int32_t up[3],
+                        gn_angle fovy, int32_t near_depth, int32_t far_depth);
+
+/* Build a model matrix: start with identity; each call acts after what is there already. */
+void gn_model_identity(gn_model *model);
+gn_status gn_model_scale(gn_model *model, gn_q16_16 x, gn_q16_16 y, gn_q16_16 z);
+gn_status gn_model_rotate(gn_model *model, const int32_t axis[3], gn_angle angle); /* right-handed about axis */
+gn_status gn_model_translate(gn_model *model, int32_t x, int32_t y, int32_t z);
+
+/* Sine and cosine, |error| <= 2^-29; the angle's unit is 2^-32 turns. */
+gn_q2_30 gn_sine(gn_angle angle);
+gn_q2_30 gn_cosine(gn_angle angle);
+
+/* ---- settings: the choices of docs/design.md ------------------------------------------------------------------- */
+
+typedef enum gn_cull { GN_CULL_AUTO = 0, GN_CULL_NONE, GN_CULL_BACK, GN_CULL_FRONT } gn_cull;
+typedef enum gn_layers { GN_LAYERS_AUTO = 0, GN_LAYERS_FIRST, GN_LAYERS_TWO } gn_layers;
+
+/* What the one map holds when the light pass is done; z1, z2: nearest and second nearest depth. */
+typedef enum gn_surface {
+    GN_CONSTANT = 0, /* z1 + bias */
+    GN_MIDPOINT,     /* (z1 + z2) / 2                                   (Woo 1992) */
+    GN_DUAL,         /* z1 + min((z2 - z1) / 2, bias)                    (Weiskopf & Ertl 2003, eq. 2) */
+    GN_SECOND,       /* z2, open meshes counting twice; or z1 with front faces culled (Wang & Molnar 1994) */
+    GN_MIXED         /* z2 where the nearest layer is closed, dual where it is open */
+} gn_surface;
+
+typedef enum gn_bias_unit {
+    GN_BIAS_WORLD = 0, /* whole world units along the light (spot: converted at w = sqrt(near far)) */
+    GN_BIAS_TEXELS,    /* Q16.16: the depth of so many texels at 45 degrees */
+    GN_BIAS_RANGE      /* Q0.32: fraction of the light's stored depth range */
+} gn_bias_unit;
+
+typedef struct gn_bias {
+    uint8_t unit;   /* gn_bias_unit */
+    uint32_t value; /* never negative */
+} gn_bias;
+
+typedef enum gn_format {
+    GN_NO_COLOUR = 0, /* masks only */
+    GN_RGB888,        /* three bytes a pixel: r, g, b */
+    GN_RGB565         /* one uint16_t a pixel, native byte order; each channel rounded half up */
+} gn_format;
+
+typedef struct gn_settings {
+    uint16_t width, height;         /* image, 1 to GN_MAX_SIZE */
+    uint16_t map_width, map_height; /* shadow map, 1 to GN_MAX_SIZE */
+    uint16_t region_width,
+        region_height; /* camera regions; 0: chosen. Trades RAM (8 bytes a pixel and worker) against time */
+    uint16_t map_rows; /* rows of a light region; 0: the whole map. Trades RAM of the second layer against time */
+    uint8_t cull, layers, surface; /* gn_cull, gn_layers, gn_surface */
+    uint8_t format;                /* gn_format */
+    uint8_t mask;                  /* 1: also deliver masks: 0 shadowed, 254 lit, 255 no surface */
+    uint8_t workers;               /* how many regions may be rendered at once, 1 to 64 */
+    gn_bias bias;                  /* of GN_CONSTANT, GN_DUAL and GN_MIXED */
+} gn_settings;
+
+/* Second depth with everything else left to gn_make_plan: no bias to choose for closed meshes. */
+gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_size);
+
+typedef struct gn_plan {
+    size_t bytes;                 /* of the whole block: the maximum of the two passes */
+    size_t map_bytes;             /* of it: the shadow map, which stays between the passes */
+    size_t light_bytes;           /* needed during the light pass, map included */
+    size_t camera_bytes;          /* needed during the camera pass, map included */
+    uint32_t triangles, vertices; /* of all objects; a mesh used twice counts twice */
+    uint32_t light_regions, camera_regions;
+    uint16_t region_width, region_height, map_rows; /* as chosen */
+    uint8_t cull, layers;                           /* as chosen: never AUTO */
+} gn_plan;
+
+#define GN_ALIGNMENT 8
+
+typedef struct gn_context gn_context;
+
+/* Say what the scene needs, and check every mesh (indices, ranges); nothing is written but *plan. */
+gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings);
+
+/* Take the block; the scene (not the settings) must outlive the context. Nothing outside the block is ever written.
+ * GN_TOO_SMALL, GN_MISALIGNED, or what gn_make_plan returns. */
+gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings *settings, void *memory, size_t bytes);
+
+/* ---- light pass ------------------------------------------------------------------------------------------------ */
+
+/* Render the shadow map. It stays valid for any number of camera passes. */
+gn_status gn_light_pass(gn_context *context, const gn_light *light);
+
+/* The same in steps: begin; then for every region in any order, on any worker (0 .. workers-1, each used by one thread
+ * at a time): layers, then resolve. Regions are independent jobs. */
+gn_status gn_light_begin(gn_context *context, const gn_light *light);
+gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker);
+gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker);
+
+/* Between layers and resolve: the first (0) or second (1) layer of the region on that worker, after resolve (0): the
+ * map. Row i of the region starts at index i * *stride. 0 if there is no such layer. GN_MIXED marks open texels in
+ * the lowest bit. */
+const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t region, uint32_t worker,
+                         uint32_t *first_row, uint32_t *rows, uint32_t *stride);
+
+/* ---- camera pass ----------------------------------------------------------------------------------------------- */
+
+typedef struct gn_pixels {
+    uint16_t x, y, width, height; /* place in the image; rows are packed, width pixels each */
+    const void *colour;           /* gn_format; 0 with GN_NO_COLOUR */
+    const uint8_t *mask;          /* 0 unless settings.mask */
+} gn_pixels;
+
+/* Called once a region. Return 0 to go on, anything else to stop the frame (GN_STOPPED). */
+typedef int (*gn_flush)(void *user, const gn_pixels *pixels);
+
+/* Render the image, region by region, left to right and top to bottom, each into the same buffer of the context. */
+gn_status gn_camera_pass(gn_context *context, const gn_camera *camera, gn_flush flush, void *user);
+
+/* The same in steps, for an RTOS or double-buffered DMA: begin once; then each region, in any order, on any worker,
+ * into colour and mask buffers of the caller (plan.region_width x plan.region_height pixels; 0: not wanted). Describes
+ * what was rendered in *pixels. */
+gn_status gn_camera_begin(gn_context *context, const gn_camera *camera);
+gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker, void *colour, uint8_t *mask,
+                           gn_pixels *pixels);
+
+/* ---- statistics (GN_STATISTICS 1) ------------------------------------------------------------------------------ */
+
+typedef struct gn_statistics {
+    uint64_t light_triangles;  /* set up in the light pass, each region counted */
+    uint64_t light_texels;     /* covered by them */
+    uint64_t camera_triangles; /* set up in the camera pass, each region counted */
+    uint64_t camera_fragments; /* covered by them */
+    uint64_t pixels_shaded;    /* pixels that see a surface */
+    uint64_t pixels_tested;    /* of them: looked up in the map */
+    uint64_t map_bytes;
+} gn_statistics;
+
+/* Sum over all workers since gn_init. */
+void gn_get_statistics(const gn_context *context, gn_statistics *statistics);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
