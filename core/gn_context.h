@@ -3,6 +3,7 @@
 #ifndef GN_CONTEXT_H
 #define GN_CONTEXT_H
 
+#include "gn_vector.h"
 #include "gn_view.h"
 #include "gnomon.h"
 
@@ -62,7 +63,8 @@ struct gn_context {
     gn_object_state *objects;
     gn_worker *workers;
     gn_depth *map;
-    uint8_t *shared; /* where the two passes take turns */
+    uint32_t map_stride; /* texels from row to row */
+    uint8_t *shared;     /* where the two passes take turns */
     gn_vertex *vertices;
     uint32_t triangle_bits; /* identifier = object << triangle_bits | triangle */
 

@@ -2,7 +2,7 @@
 #include "gn_fixed.h"
 
 /* round(2^15 / x) at the middle of the interval: x = (256.5 + i) / 512. */
-const uint16_t gn_reciprocal_seed[256] = {
+const gn_seed gn_reciprocal_seed[256] = {
     65408, 65154, 64902, 64652, 64404, 64158, 63913, 63671, 63430, 63191, 62954, 62719, 62485, 62253, 62023, 61795,
     61568, 61343, 61119, 60897, 60677, 60458, 60241, 60026, 59812, 59599, 59388, 59179, 58971, 58764, 58559, 58356,
     58153, 57952, 57753, 57555, 57358, 57163, 56968, 56776, 56584, 56394, 56205, 56017, 55831, 55646, 55462, 55279,
@@ -51,6 +51,20 @@ uint32_t gn_divide(uint64_t n, uint32_t d)
 }
 #endif
 
+#if GN_WIDE_DIVIDE
+/* Newton's iteration from above: it falls until it is the floor. */
+uint32_t gn_square_root(uint64_t v)
+{
+    if (v == 0)
+        return 0;
+    uint64_t root = UINT64_C(1) << ((65 - gn_leading_zeros_64(v)) / 2), next;
+    root = root > 0xffffffffu ? 0xffffffffu : root;
+    while ((next = (root + v / root) >> 1) < root)
+        root = next;
+    return (uint32_t)root;
+}
+#else
+/* A binary digit a turn. */
 uint32_t gn_square_root(uint64_t v)
 {
     uint64_t root = 0, bit = UINT64_C(1) << 62;
@@ -67,6 +81,7 @@ uint32_t gn_square_root(uint64_t v)
     }
     return (uint32_t)root;
 }
+#endif
 
 #if GN_SLOW_MULTIPLY
 uint64_t gn_multiply_u_slow(uint32_t a, uint32_t b)

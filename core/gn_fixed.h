@@ -133,9 +133,16 @@ GN_INLINE uint32_t gn_reciprocal_exact(uint32_t d)
 /* floor(sqrt(v)). */
 uint32_t gn_square_root(uint64_t v);
 
+/* 32 bits wide where a vector unit may gather it. */
+#if UINTPTR_MAX > 0xffffffffu
+typedef uint32_t gn_seed;
+#else
+typedef uint16_t gn_seed;
+#endif
+
 /* About 2^62 / d for 2^31 <= d < 2^32, in (2^30 - 2^10, 2^31): relative error -2^-18 to 2^-21, without a wide
  * product or a divider. One Newton step on a 16-bit seed from a table: r = s - s (s d - 1). */
-extern const uint16_t gn_reciprocal_seed[256];
+extern const gn_seed gn_reciprocal_seed[256];
 GN_INLINE uint32_t gn_reciprocal(uint32_t d)
 {
     uint32_t seed = gn_reciprocal_seed[(d >> 23) & 255];

@@ -11,6 +11,7 @@
  * Memory: map, 12 bytes a vertex, the second layer of one region a worker. */
 #include "gn_clip.h"
 #include "gn_context.h"
+#include "gn_vector.h"
 
 #define GN_FARTHEST ((gn_depth)0xffffffffu)
 #define GN_DEPTH_SHIFT (32 - GN_DEPTH_BITS)
@@ -22,7 +23,12 @@ typedef struct target {
     int32_t stride, row0;
     gn_depth_plane plane;
     uint32_t open; /* 1: mark as open (mixed) */
+#if GN_VECTOR
+    gn_u32x16 lanes; /* the plane's step to each of 16 texels */
+#endif
 } target;
+
+typedef enum insertion { FIRST, TWO, TWICE, MARKED } insertion;
 
 /* The depths are stepped in 32 bits and cut to the stored width: 16-bit layers are the upper half of 32-bit ones. */
 GN_INLINE uint32_t start_depth(const target *t, int32_t row, int32_t left)
@@ -30,85 +36,143 @@ GN_INLINE uint32_t start_depth(const target *t, int32_t row, int32_t left)
     return t->plane.base + (uint32_t)row * t->plane.dy + (uint32_t)left * t->plane.dx;
 }
 
-GN_INLINE void span_first(const void *state, int32_t row, int32_t left, int32_t right)
+#if !GN_VECTOR
+GN_INLINE void insert_first(gn_depth *z1, gn_depth v)
 {
-    const target *t = state;
-    gn_depth *z1 = t->first + (row - t->row0) * t->stride + left, *end = z1 + (right - left);
-    uint32_t z = start_depth(t, row, left), dx = t->plane.dx;
-    do {
-        gn_depth v = (gn_depth)(z >> GN_DEPTH_SHIFT);
+    if (v < *z1)
+        *z1 = v;
+}
+
+GN_INLINE void insert_two(gn_depth *z1, gn_depth *z2, gn_depth v)
+{
+    if (v < *z2) { /* usually not */
+        gn_depth nearest = *z1;
+        if (v < nearest) {
+            *z2 = nearest;
+            *z1 = v;
+        } else {
+            *z2 = v;
+        }
+    }
+}
+
+GN_INLINE void insert_twice(gn_depth *z1, gn_depth *z2, gn_depth v)
+{
+    if (v < *z2) {
+        *z2 = v;
         if (v < *z1)
             *z1 = v;
-        z += dx;
-    } while (++z1 != end);
+    }
 }
 
-GN_INLINE void span_two(const void *state, int32_t row, int32_t left, int32_t right)
+GN_INLINE gn_depth cut(uint32_t z, insertion how, uint32_t open)
 {
-    const target *t = state;
-    int32_t at = (row - t->row0) * t->stride + left;
-    gn_depth *z1 = t->first + at, *z2 = t->second + at, *end = z1 + (right - left);
-    uint32_t z = start_depth(t, row, left), dx = t->plane.dx;
+    z >>= GN_DEPTH_SHIFT;
+    return (gn_depth)(how == MARKED ? (z & ~1u) | open : z);
+}
+
+GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t z, insertion how)
+{
+    gn_depth *z1 = t->first + at, *z2 = t->second + at, *end = z1 + count;
+    uint32_t dx = t->plane.dx, open = t->open;
     do {
-        gn_depth v = (gn_depth)(z >> GN_DEPTH_SHIFT);
-        if (v < *z2) {
-            gn_depth nearest = *z1;
-            if (v < nearest) {
-                *z2 = nearest;
-                *z1 = v;
-            } else {
-                *z2 = v;
-            }
-        }
+        gn_depth v = cut(z, how, open);
+        if (how == FIRST)
+            insert_first(z1, v);
+        else if (how == TWICE)
+            insert_twice(z1, z2, v);
+        else
+            insert_two(z1, z2, v);
         z1++;
         z2++;
         z += dx;
     } while (z1 != end);
 }
-
-GN_INLINE void span_twice(const void *state, int32_t row, int32_t left, int32_t right)
+#else
+/* min(a, b) of 16 lanes. */
+GN_INLINE gn_depthx16 nearer(gn_depthx16 a, gn_depthx16 b)
 {
-    const target *t = state;
-    int32_t at = (row - t->row0) * t->stride + left;
-    gn_depth *z1 = t->first + at, *z2 = t->second + at, *end = z1 + (right - left);
-    uint32_t z = start_depth(t, row, left), dx = t->plane.dx;
-    do {
-        gn_depth v = (gn_depth)(z >> GN_DEPTH_SHIFT);
-        if (v < *z2) {
-            *z2 = v;
-            if (v < *z1)
-                *z1 = v;
-        }
-        z1++;
-        z2++;
-        z += dx;
-    } while (z1 != end);
+    gn_depthx16 less = (gn_depthx16)(a < b);
+    return (a & less) | (b & ~less);
 }
 
-GN_INLINE void span_marked(const void *state, int32_t row, int32_t left, int32_t right)
+GN_INLINE gn_depthx16 farther(gn_depthx16 a, gn_depthx16 b)
 {
-    const target *t = state;
-    int32_t at = (row - t->row0) * t->stride + left;
-    gn_depth *z1 = t->first + at, *z2 = t->second + at, *end = z1 + (right - left);
-    uint32_t z = start_depth(t, row, left), dx = t->plane.dx, open = t->open;
-    do {
-        gn_depth v = (gn_depth)((z >> GN_DEPTH_SHIFT & ~1u) | open);
-        if (v < *z2) {
-            gn_depth nearest = *z1;
-            if (v < nearest) {
-                *z2 = nearest;
-                *z1 = v;
-            } else {
-                *z2 = v;
-            }
-        }
-        z1++;
-        z2++;
-        z += dx;
-    } while (z1 != end);
+    gn_depthx16 less = (gn_depthx16)(a < b);
+    return (b & less) | (a & ~less);
 }
+
+GN_INLINE gn_depthx16 cut_lanes(gn_u32x16 z)
+{
+#if GN_DEPTH_BITS == 16
+    return __builtin_convertvector(z >> 16, gn_u16x16);
+#else
+    return z;
+#endif
+}
+
+/* Insert 16 depths; lanes that are all ones in far insert the farthest depth, which changes nothing. */
+GN_INLINE void insert_lanes(const target *t, int32_t at, gn_u32x16 depth, gn_depthx16 far, insertion how)
+{
+    gn_depthx16 v = cut_lanes(depth);
+    if (how == MARKED)
+        v = (v & (gn_depth)~1u) | (gn_depth)t->open;
+    v |= far;
+    gn_depthx16 *first = (gn_depthx16 *)(void *)(t->first + at), old = *first;
+    *first = nearer(v, old);
+    if (how != FIRST) {
+        gn_depthx16 *second = (gn_depthx16 *)(void *)(t->second + at);
+        *second = nearer(*second, how == TWICE ? v : farther(v, old));
+    }
+}
+
+/* 16 texels at a time, beginning at the left end. */
+GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t z, insertion how)
+{
+    static const gn_depthx16 lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    gn_u32x16 depth = t->lanes + z;
+    gn_depthx16 all = {0};
+    for (; count >= 16; count -= 16, at += 16, depth += t->plane.dx * 16)
+        insert_lanes(t, at, depth, all, how);
+    if (count)
+        insert_lanes(t, at, depth, (gn_depthx16)(lane >= (gn_depth)count), how);
+}
+#endif
+
+#define SPAN(name, how)                                                                                                \
+    GN_INLINE void name(const void *state, int32_t row, int32_t left, int32_t right)                                   \
+    {                                                                                                                  \
+        const target *t = state;                                                                                       \
+        insert_span(t, (row - t->row0) * t->stride + left, right - left, start_depth(t, row, left), how);              \
+    }
+SPAN(span_first, FIRST)
+SPAN(span_two, TWO)
+SPAN(span_twice, TWICE)
+SPAN(span_marked, MARKED)
+
+#if GN_VECTOR
+#define TINY(name, how)                                                                                                \
+    GN_INLINE void name(const void *state, int32_t row, int32_t column, gn_i32x16 outside)                             \
+    {                                                                                                                  \
+        const target *t = state;                                                                                       \
+        gn_depthx16 far = cut_lanes((gn_u32x16)(outside < 0));                                                         \
+        insert_lanes(t, (row - t->row0) * t->stride + column, t->lanes + start_depth(t, row, column), far, how);       \
+    }
+TINY(tiny_first, FIRST)
+TINY(tiny_two, TWO)
+TINY(tiny_twice, TWICE)
+TINY(tiny_marked, MARKED)
+#endif
 
 /* ---- triangles ------------------------------------------------------------------------------------------------- */
+
+#if GN_VECTOR
+#define WALK(span, tiny)                                                                                               \
+    if (!gn_walk_tiny_16(v0, v1, v2, window, tiny, t))                                                                 \
+    gn_walk(v0, v1, v2, window, span, t)
+#else
+#define WALK(span, tiny) gn_walk(v0, v1, v2, window, span, t)
+#endif
 
 /* One clockwise triangle whose plane is known: an instance of the walk for each way of insertion. */
 typedef void walk(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
@@ -117,25 +181,25 @@ typedef void walk(const target *t, const gn_vertex *v0, const gn_vertex *v1, con
 static GN_NOINLINE void walk_first(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
                                    const gn_window *window)
 {
-    gn_walk(v0, v1, v2, window, span_first, t);
+    WALK(span_first, tiny_first);
 }
 
 static GN_NOINLINE void walk_two(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
                                  const gn_window *window)
 {
-    gn_walk(v0, v1, v2, window, span_two, t);
+    WALK(span_two, tiny_two);
 }
 
 static GN_NOINLINE void walk_twice(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
                                    const gn_window *window)
 {
-    gn_walk(v0, v1, v2, window, span_twice, t);
+    WALK(span_twice, tiny_twice);
 }
 
 static GN_NOINLINE void walk_marked(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
                                     const gn_window *window)
 {
-    gn_walk(v0, v1, v2, window, span_marked, t);
+    WALK(span_marked, tiny_marked);
 }
 
 /* Which orientation is left out: 1 clockwise on the map (back faces), -1 counter-clockwise (front), 0 none. */
@@ -175,6 +239,15 @@ static void count_triangle(gn_worker *worker, const gn_vertex *v0, const gn_vert
 #define count_triangle(worker, v0, v1, v2, window) ((void)(worker))
 #endif
 
+static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
+{
+    gn_make_depth_plane(&t->plane, v0, v1, v2, area);
+#if GN_VECTOR
+    static const gn_u32x16 lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    t->lanes = lane * t->plane.dx;
+#endif
+}
+
 /* A triangle with a corner beyond the planes or the guard band. */
 static GN_NOINLINE void insert_clipped(const gn_context *context, gn_worker *worker, target *t, walk *insert,
                                        const gn_object *object, const uint32_t index[3], int culled,
@@ -187,7 +260,7 @@ static GN_NOINLINE void insert_clipped(const gn_context *context, gn_worker *wor
     if (polygon.area == 0 || (polygon.area > 0 ? 1 : -1) == culled)
         return;
     const gn_vertex *v = polygon.v;
-    gn_make_depth_plane(&t->plane, &v[0], &v[polygon.reference], &v[polygon.reference + 1], polygon.area);
+    set_plane(t, &v[0], &v[polygon.reference], &v[polygon.reference + 1], polygon.area);
     for (int32_t i = 1; i + 1 < polygon.count; i++) {
         int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
         if (area == 0 || (area > 0) != (polygon.area > 0) || gn_misses(&v[0], &v[i], &v[i + 1], window))
@@ -219,7 +292,7 @@ static void insert_mesh(const gn_context *context, gn_worker *worker, target *t,
             continue;
         if (gn_misses(v0, v1, v2, window))
             continue;
-        gn_make_depth_plane(&t->plane, v0, v1, v2, area);
+        set_plane(t, v0, v1, v2, area);
         if (area < 0) {
             const gn_vertex *v = v1;
             v1 = v2;
@@ -358,10 +431,10 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     if (!gn_layer(context, 0, region, worker, &first_row, &rows, &stride))
         return GN_BAD_ARGUMENT;
     gn_worker *w = &context->workers[worker];
-    gn_window window = {0, (int32_t)first_row, (int32_t)stride, (int32_t)(first_row + rows)};
+    gn_window window = {0, (int32_t)first_row, context->settings.map_width, (int32_t)(first_row + rows)};
     target t;
     t.first = context->map + (size_t)first_row * stride;
-    t.second = w->second;
+    t.second = context->plan.layers == GN_LAYERS_TWO ? w->second : t.first; /* unused, but never null */
     t.stride = (int32_t)stride;
     t.row0 = (int32_t)first_row;
     clear(t.first, (size_t)rows * stride);
@@ -383,7 +456,7 @@ const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t reg
     uint32_t first = region * context->plan.map_rows, height = context->settings.map_height;
     *first_row = first;
     *rows = first + context->plan.map_rows > height ? height - first : context->plan.map_rows;
-    *stride = context->settings.map_width;
+    *stride = context->map_stride;
     return layer ? context->workers[worker].second : context->map + (size_t)first * *stride;
 }
 

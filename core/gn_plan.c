@@ -139,6 +139,12 @@ static void *take(uint8_t *base, size_t *used, uint64_t bytes)
     return p;
 }
 
+/* Texels from one row of the map to the next. */
+static uint32_t map_stride(const gn_settings *settings)
+{
+    return settings->map_width + GN_ROW_PADDING;
+}
+
 /* Head of the block: what stays between the passes. Returns its size. */
 static size_t lay_out_head(gn_context *context, const gn_scene *scene, const gn_settings *settings)
 {
@@ -146,11 +152,12 @@ static size_t lay_out_head(gn_context *context, const gn_scene *scene, const gn_
     size_t used = align_up(sizeof(gn_context));
     gn_object_state *objects = take(base, &used, (uint64_t)scene->object_count * sizeof *objects);
     gn_worker *workers = take(base, &used, (uint64_t)settings->workers * sizeof *workers);
-    gn_depth *map = take(base, &used, (uint64_t)settings->map_width * settings->map_height * sizeof *map);
+    gn_depth *map = take(base, &used, (uint64_t)map_stride(settings) * settings->map_height * sizeof *map);
     if (context) {
         context->objects = objects;
         context->workers = workers;
         context->map = map;
+        context->map_stride = map_stride(settings);
         context->shared = base + used;
     }
     return used;
@@ -164,7 +171,7 @@ size_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_setti
     if (context)
         context->vertices = vertices;
     for (uint32_t i = 0; plan->layers == GN_LAYERS_TWO && i < settings->workers; i++) {
-        gn_depth *second = take(base, &used, (uint64_t)plan->map_rows * settings->map_width * sizeof *second);
+        gn_depth *second = take(base, &used, (uint64_t)plan->map_rows * map_stride(settings) * sizeof *second);
         if (context)
             context->workers[i].second = second;
     }
@@ -194,7 +201,8 @@ size_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_sett
         context->mask_buffer = settings->mask ? mask : 0;
     }
     for (uint32_t i = 0; i < settings->workers; i++) {
-        uint32_t *q = take(base, &used, (uint64_t)pixels * 4), *triangle = take(base, &used, (uint64_t)pixels * 4);
+        uint64_t plane = ((uint64_t)pixels + GN_ROW_PADDING) * 4;
+        uint32_t *q = take(base, &used, plane), *triangle = take(base, &used, plane);
         gn_colour_pair *colours = take(base, &used, GN_COLOUR_CACHE * sizeof *colours);
         if (context) {
             context->workers[i].q = q;
@@ -231,7 +239,7 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
     p.map_rows = (uint16_t)rows;
     p.light_regions = (settings->map_height + rows - 1) / rows;
     p.camera_regions = (settings->width + width - 1) / width * ((settings->height + height - 1) / height);
-    p.map_bytes = (size_t)settings->map_width * settings->map_height * sizeof(gn_depth);
+    p.map_bytes = (size_t)map_stride(settings) * settings->map_height * sizeof(gn_depth);
     size_t head = lay_out_head(0, scene, settings);
     p.light_bytes = head + gn_lay_out_light(0, &p, settings);
     p.camera_bytes = head + gn_lay_out_camera(0, &p, settings);

@@ -12,6 +12,7 @@
 #define GN_RASTER_H
 
 #include "gn_fixed.h"
+#include "gn_vector.h"
 
 /* A projected vertex. |x|, |y| < 2^21. depth: light pass: Z, 31 bits; camera pass: Q, 30 bits, greater is nearer;
  * 0: the vertex cannot be projected and its triangles must be clipped. */
@@ -189,5 +190,68 @@ GN_INLINE void gn_walk(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex
         end = bottom;
     }
 }
+
+#if GN_VECTOR
+/* ---- tiny triangles, hosts only -------------------------------------------------------------------------------- */
+
+/* Sixteen or eight pixels from a column on: negative lanes are outside the triangle. */
+typedef void gn_tiny_span_16(const void *state, int32_t row, int32_t column, gn_i32x16 outside);
+typedef void gn_tiny_span_8(const void *state, int32_t row, int32_t column, gn_i32x8 outside);
+
+/* One side's edge function at the centre (column, row), less the tie that top and left edges win, divided by 256: its
+ * steps of 256 a column and a row leave only the floor to matter. All of it fits 32 bits in a box of 16 x 16 pixels. */
+GN_INLINE int32_t gn_tiny_edge(const gn_vertex *from, const gn_vertex *to, int32_t column, int32_t row, int32_t *dx,
+                               int32_t *dy)
+{
+    *dx = to->x - from->x;
+    *dy = to->y - from->y;
+    int32_t tie = *dy < 0 || (*dy == 0 && *dx > 0) ? 0 : 1;
+    return gn_floor_shift(*dx * (256 * row + 128 - from->y) - *dy * (256 * column + 128 - from->x) - tie, 8);
+}
+
+/* The box of a triangle in pixels, cut to the window; 0 if it is wider than most columns or taller than 16 rows. */
+GN_INLINE int gn_tiny_box(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, const gn_window *window,
+                          int32_t most, gn_window *box)
+{
+    int32_t left = v0->x < v1->x ? v0->x : v1->x, right = v0->x < v1->x ? v1->x : v0->x;
+    int32_t top = v0->y < v1->y ? v0->y : v1->y, bottom = v0->y < v1->y ? v1->y : v0->y;
+    left = v2->x < left ? v2->x : left;
+    right = v2->x > right ? v2->x : right;
+    top = v2->y < top ? v2->y : top;
+    bottom = v2->y > bottom ? v2->y : bottom;
+    if (right - left > 256 * most || bottom - top > 256 * 16)
+        return 0;
+    box->column0 = gn_first_centre(left);
+    box->column1 = gn_first_centre(right);
+    box->row0 = gn_first_centre(top);
+    box->row1 = gn_first_centre(bottom);
+    box->column0 = box->column0 < window->column0 ? window->column0 : box->column0;
+    box->row0 = box->row0 < window->row0 ? window->row0 : box->row0;
+    box->row1 = box->row1 > window->row1 ? window->row1 : box->row1;
+    return box->column1 <= window->column1 && box->column1 - box->column0 <= most;
+}
+
+#define GN_TINY_WALK(name, lanes, ...)                                                                                 \
+    GN_INLINE int name(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, const gn_window *window,         \
+                       gn_tiny_span_##lanes *span, const void *state)                                                  \
+    {                                                                                                                  \
+        static const gn_i32x##lanes lane = {__VA_ARGS__};                                                              \
+        gn_window box;                                                                                                 \
+        int32_t dx0, dy0, dx1, dy1, dx2, dy2;                                                                          \
+        if (!gn_tiny_box(v0, v1, v2, window, lanes, &box))                                                             \
+            return 0;                                                                                                  \
+        gn_i32x##lanes e0 = gn_tiny_edge(v0, v1, box.column0, box.row0, &dx0, &dy0) - lane * dy0;                      \
+        gn_i32x##lanes e1 = gn_tiny_edge(v1, v2, box.column0, box.row0, &dx1, &dy1) - lane * dy1;                      \
+        gn_i32x##lanes e2 = gn_tiny_edge(v2, v0, box.column0, box.row0, &dx2, &dy2) - lane * dy2;                      \
+        for (int32_t row = box.row0; row < box.row1; row++, e0 += dx0, e1 += dx1, e2 += dx2)                           \
+            span(state, row, box.column0, e0 | e1 | e2);                                                               \
+        return 1;                                                                                                      \
+    }
+
+/* Walk a clockwise triangle by its edge functions, a vector a row, if it is small enough; 0 if not. The same pixels as
+ * gn_walk, without its divisions. */
+GN_TINY_WALK(gn_walk_tiny_16, 16, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+GN_TINY_WALK(gn_walk_tiny_8, 8, 0, 1, 2, 3, 4, 5, 6, 7)
+#endif
 
 #endif

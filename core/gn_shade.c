@@ -35,7 +35,7 @@ static expression make_expression(const gn_context *context, const gn_row *row, 
                                   gn_scaled w_unit)
 {
     const gn_camera *camera = &context->camera;
-    gn_scaled width = gn_scale(context->settings.width, 0), height = gn_scale(context->settings.height, 0);
+    gn_scaled height = gn_scale(context->settings.height, 0);
     int64_t half = row->shift ? (int64_t)1 << (row->shift - 1) : 0;
     int64_t at_eye = row->offset - half + gn_multiply(row->m[0], camera->eye[0]) +
                      gn_multiply(row->m[1], camera->eye[1]) + gn_multiply(row->m[2], camera->eye[2]);
@@ -60,7 +60,6 @@ static expression make_expression(const gn_context *context, const gn_row *row, 
         e.a_dy = gn_scaled_negate(gn_scaled_multiply(up, pixel));
         e.b = gn_scaled_negate(gn_scaled_multiply(forward, w_unit));
     }
-    (void)width;
     return e;
 }
 
@@ -216,6 +215,14 @@ GN_INLINE uint32_t next(runner *r, uint32_t w, int orthographic)
     return value;
 }
 
+/* The value at the i-th pixel after the start. */
+GN_INLINE uint32_t at(const runner *r, int32_t i, uint32_t w, int orthographic)
+{
+    if (orthographic)
+        return r->a + (uint32_t)i * r->a_dx + product(w, r->b);
+    return r->a + product(w, r->b + (uint32_t)i * r->b_dx);
+}
+
 /* Depth in units of 1/65536 with bits fraction bits, cut as the light pass cuts it. */
 GN_INLINE gn_depth cut_depth(uint32_t z, uint32_t bits)
 {
@@ -226,30 +233,74 @@ GN_INLINE gn_depth cut_depth(uint32_t z, uint32_t bits)
 #endif
 }
 
+/* What a row's look-up needs, kept in registers. */
+typedef struct lookup {
+    const gn_depth *map;
+    uint32_t stride, last_column, last_row, position_bits, depth_bits;
+} lookup;
+
+GN_INLINE lookup make_lookup(const gn_context *context)
+{
+    lookup l = {context->map,
+                context->map_stride,
+                context->settings.map_width - 1u,
+                context->settings.map_height - 1u,
+                context->shading.position_bits,
+                context->shading.depth_bits};
+    return l;
+}
+
+/* The texel's index. *lit: 1 where an untrusted point lies outside the box: lit; behind it: compared at the far end. */
+GN_INLINE uint32_t find_texel(const lookup *l, uint32_t u, uint32_t v, uint32_t *depth, uint32_t *lit, int trusted)
+{
+    uint32_t column = u >> l->position_bits, row = v >> l->position_bits;
+    *lit = 0;
+    if (!trusted) {
+        *lit = (column > l->last_column) | (row > l->last_row) | (*depth >> 31);
+        *depth = *depth >> (16 + l->depth_bits) ? (0x10000u << l->depth_bits) - 1 : *depth;
+    }
+    /* Inside the box this changes nothing; it keeps pixels without a surface inside the map. */
+    column = column > l->last_column ? l->last_column : column;
+    row = row > l->last_row ? l->last_row : row;
+    return row * l->stride + column;
+}
+
+#if GN_VECTOR
+/* In stages over short blocks, so that all but the look-up itself runs in vectors. */
 GN_INLINE void shade_directional(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count,
                                  int orthographic, int trusted)
 {
-    const gn_shading *s = &context->shading;
-    runner u = start(&s->coordinate[0], x, y), v = start(&s->coordinate[1], x, y), z = start(&s->coordinate[2], x, y);
-    const gn_depth *map = context->map;
-    uint32_t width = context->settings.map_width, last_column = width - 1;
-    uint32_t last_row = context->settings.map_height - 1u, bits = s->position_bits, depth_bits = s->depth_bits;
-    for (int32_t i = 0; i < count; i++) {
-        uint32_t w = q[i];
-        uint32_t column = next(&u, w, orthographic) >> bits, row = next(&v, w, orthographic) >> bits;
-        uint32_t depth = next(&z, w, orthographic), lit = 0;
-        if (!trusted) {
-            /* A point outside the box is lit; one behind it is compared at the far end of the range. */
-            lit = column > last_column || row > last_row || depth >> 31;
-            if (depth >> (16 + depth_bits))
-                depth = (0x10000u << depth_bits) - 1;
+    enum { BLOCK = 128 };
+    uint32_t texel[BLOCK], depth[BLOCK];
+    const gn_linear *c = context->shading.coordinate;
+    lookup l = make_lookup(context);
+    for (int32_t from = 0; from < count; from += BLOCK, q += BLOCK) {
+        int32_t n = count - from < BLOCK ? count - from : BLOCK;
+        runner u = start(&c[0], x + from, y), v = start(&c[1], x + from, y), z = start(&c[2], x + from, y);
+        for (int32_t i = 0; i < n; i++) {
+            uint32_t w = q[i], d = at(&z, i, w, orthographic), lit;
+            texel[i] = find_texel(&l, at(&u, i, w, orthographic), at(&v, i, w, orthographic), &d, &lit, trusted);
+            depth[i] = cut_depth(d, l.depth_bits);
+            q[i] = lit;
         }
-        /* Inside the image of the box this changes nothing; it keeps pixels without a surface inside the map. */
-        column = column > last_column ? last_column : column;
-        row = row > last_row ? last_row : row;
-        q[i] = lit | (cut_depth(depth, depth_bits) <= map[row * width + column]);
+        for (int32_t i = 0; i < n; i++)
+            q[i] |= depth[i] <= l.map[texel[i]];
     }
 }
+#else
+GN_INLINE void shade_directional(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count,
+                                 int orthographic, int trusted)
+{
+    const gn_linear *c = context->shading.coordinate;
+    runner u = start(&c[0], x, y), v = start(&c[1], x, y), z = start(&c[2], x, y);
+    lookup l = make_lookup(context);
+    for (int32_t i = 0; i < count; i++) {
+        uint32_t w = q[i], lit, depth = next(&z, w, orthographic), column = next(&u, w, orthographic);
+        uint32_t texel = find_texel(&l, column, next(&v, w, orthographic), &depth, &lit, trusted);
+        q[i] = lit | (cut_depth(depth, l.depth_bits) <= l.map[texel]);
+    }
+}
+#endif
 
 GN_INLINE void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count, int orthographic)
 {
@@ -277,7 +328,7 @@ GN_INLINE void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int
         row = row >= height ? height - 1 : row;
         uint32_t z =
             GN_DEPTH_GUARD + (uint32_t)(gn_multiply_u(light->depth_scale, (1u << 30) - nearness) >> light->depth_shift);
-        if ((gn_depth)((2 * z) >> (32 - GN_DEPTH_BITS)) > context->map[row * width + column])
+        if ((gn_depth)((2 * z) >> (32 - GN_DEPTH_BITS)) > context->map[row * context->map_stride + column])
             continue;
         /* near / |point - light| = near / w / sqrt(1 + tan^2 (u^2 + v^2)) */
         int32_t du = (int32_t)(left >> 14) - (1 << 15), dv = (int32_t)(top >> 14) - (1 << 15);

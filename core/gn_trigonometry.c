@@ -2,9 +2,10 @@
  * 0 <= x <= 1. The coefficients are minimax (Remez exchange) among those whose sum is 1, so that a quarter turn is
  * exactly 1; what they leave is 2^-35.9 (c0 is one unit less, the mean of what truncation adds). All steps together:
  * |error| < 1.15 / 2^30, over all 2^32 angles.
+ *
  * Sine is exactly odd, cosine exactly even, and both exactly symmetric about the quarter turns.
- * Memory: 24 bytes of constants. Cost: seven 32 x 32 -> 64 bit products, no division; 50
- * instructions on Cortex-M4, 285 on Cortex-M0. */
+ * Memory: 24 bytes of constants. Cost: seven 32 x 32 -> 64 bit products and no division; 50 instructions on Cortex-M4,
+ * 285 on Cortex-M0. */
 #include "gn_trigonometry.h"
 #include "gn_fixed.h"
 

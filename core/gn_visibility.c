@@ -15,8 +15,49 @@ typedef struct target {
     int32_t stride, row0, column0;
     gn_q_plane plane;
     uint32_t identifier;
+#if GN_VECTOR
+    gn_u64x8 lanes; /* the plane's step to each of 8 pixels */
+#endif
 } target;
 
+#if GN_VECTOR
+/* Draw 8 pixels but those whose lane in keep is all ones. */
+GN_INLINE void draw_lanes(const target *t, int32_t at, gn_u64x8 value, gn_u32x8 keep)
+{
+    gn_u32x8 *q = (gn_u32x8 *)(void *)(t->q + at), *triangle = (gn_u32x8 *)(void *)(t->triangle + at);
+    gn_u32x8 nearness = __builtin_convertvector(value >> 32, gn_u32x8), old = *q, other = *triangle;
+    gn_u32x8 wins = (gn_u32x8)(nearness > old) | ((gn_u32x8)(nearness == old) & (gn_u32x8)(t->identifier < other));
+    wins &= ~keep;
+    *q = (nearness & wins) | (old & ~wins);
+    *triangle = (t->identifier & wins) | (other & ~wins);
+}
+
+GN_INLINE uint64_t start_value(const target *t, int32_t row, int32_t left)
+{
+    return t->plane.base + (uint64_t)(uint32_t)row * t->plane.dy + (uint64_t)(uint32_t)left * t->plane.dx;
+}
+
+/* 8 pixels at a time, beginning at the left end. */
+GN_INLINE void span_visible(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    static const gn_u32x8 lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    const target *t = state;
+    int32_t at = (row - t->row0) * t->stride + left - t->column0, count = right - left;
+    gn_u64x8 value = t->lanes + start_value(t, row, left);
+    gn_u32x8 none = {0};
+    for (; count >= 8; count -= 8, at += 8, value += t->plane.dx * 8)
+        draw_lanes(t, at, value, none);
+    if (count)
+        draw_lanes(t, at, value, (gn_u32x8)(lane >= (uint32_t)count));
+}
+
+GN_INLINE void tiny_visible(const void *state, int32_t row, int32_t column, gn_i32x8 outside)
+{
+    const target *t = state;
+    int32_t at = (row - t->row0) * t->stride + column - t->column0;
+    draw_lanes(t, at, t->lanes + start_value(t, row, column), (gn_u32x8)(outside < 0));
+}
+#else
 GN_INLINE void span_visible(const void *state, int32_t row, int32_t left, int32_t right)
 {
     const target *t = state;
@@ -34,10 +75,15 @@ GN_INLINE void span_visible(const void *state, int32_t row, int32_t left, int32_
         triangle++;
     } while (++q != end);
 }
+#endif
 
 static GN_NOINLINE void walk_visible(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
                                      const gn_window *window)
 {
+#if GN_VECTOR
+    if (gn_walk_tiny_8(v0, v1, v2, window, tiny_visible, t))
+        return;
+#endif
     gn_walk(v0, v1, v2, window, span_visible, t);
 }
 
@@ -60,10 +106,14 @@ static void count_triangle(gn_worker *worker, const gn_vertex *v0, const gn_vert
 #endif
 
 /* Draw a triangle of either orientation; its plane is set. */
-static void draw(gn_worker *worker, const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+static void draw(gn_worker *worker, target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
                  int64_t area, const gn_window *window)
 {
     const gn_vertex *second = area > 0 ? v1 : v2, *third = area > 0 ? v2 : v1;
+#if GN_VECTOR
+    static const gn_u64x8 lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    t->lanes = lane * t->plane.dx;
+#endif
     walk_visible(t, v0, second, third, window);
     count_triangle(worker, v0, second, third, window);
 }
