@@ -31,6 +31,7 @@ typedef struct gn_linear {
 /* From (x, y, Q) to light space. */
 typedef struct gn_shading {
     gn_linear coordinate[3]; /* directional: u, v, depth; spot: (X + W) / 2, (Y + W) / 2, W */
+    uint32_t nothing;        /* Q where there is no surface */
     uint8_t w_shift;         /* W = 2^(61 - w_shift) / Q */
     uint8_t position_bits;   /* fraction bits of u and v in texels */
     uint8_t depth_bits;      /* fraction bits of depth in units of 1/65536 */
@@ -50,7 +51,7 @@ typedef struct gn_colour_pair {
 
 typedef struct gn_worker {
     gn_depth *second; /* light pass: second layer of a light region */
-    uint32_t *q;      /* camera pass: Q, 1 where there is no surface */
+    uint32_t *q;      /* camera pass: Q, later what gn_shade_row leaves */
     uint32_t *triangle;
     gn_colour_pair *colours;
     gn_statistics statistics;
@@ -114,19 +115,24 @@ void gn_triangle_places(const gn_view *view, const gn_object *object, const uint
 size_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings);
 size_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings);
 
-/* gn_shade.c: constants of a pair of camera and light, and the shadow test of one row. Afterwards q[i] is 0 where the
- * pixel is shadowed; directional: 1 where it is lit; spot: near / distance, Q2.30, at least 1. */
+/* gn_bias.c: in units of a 32-bit depth; 0xffffffff where it exceeds the range. */
+uint32_t gn_make_bias(const gn_context *context);
+
+/* gn_shading.c, gn_shade.c: constants of a pair of camera and light, and the shadow test of one row. Afterwards q[i] is
+ * negative as a signed number where the pixel is shadowed; where it is lit, with a spot light near / distance, Q2.30.
+ */
 gn_status gn_make_shading(gn_context *context, int32_t largest_w);
 void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
 void gn_make_falloff(gn_context *context);
 
-/* gn_colour.c: the colours and the mask of one row. Returns the number of pixels that see a surface; *tested: of these,
- * turned to the light. colour or mask may be 0. */
+/* gn_lambert.c, gn_colour.c: the colours of a triangle; the colours and the mask of one row. Returns the number of
+ * pixels that see a surface; *tested: of these, turned to the light. colour or mask may be 0. */
+void gn_make_pair(const gn_context *context, gn_colour_pair *pair, uint32_t triangle);
 void gn_clear_colours(gn_worker *worker);
 uint32_t gn_colour_row(const gn_context *context, gn_worker *worker, const uint32_t *lit, const uint32_t *triangle,
                        int32_t count, void *colour, uint8_t *mask, uint32_t *tested);
 
-/* gn_visibility.c: depth and triangle for a region. */
+/* gn_visibility.c, gn_bins.c: depth and triangle for a region, from the triangles in its bins. */
 void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window *window);
 gn_status gn_make_bins(gn_context *context);
 void gn_count_bins(const gn_plan *plan, const gn_settings *settings, uint32_t *bands, uint32_t *levels, uint32_t *bins);

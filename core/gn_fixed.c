@@ -49,6 +49,27 @@ uint32_t gn_divide(uint64_t n, uint32_t d)
     }
     return (digit1 << 16) + digit0;
 }
+
+/* One more Newton step on the short reciprocal, r (2 - d r / 2^62), then the exact remainder. */
+uint32_t gn_reciprocal_exact(uint32_t d)
+{
+    GN_ASSERT(d >> 31);
+    uint32_t r = gn_reciprocal(d);
+    /* 2^62 - d r is at most 2^44 + 2^41 in magnitude; its upper 32 bits are below 2^13 and 2^20 of it are kept */
+    int64_t error = (int64_t)((UINT64_C(1) << 62) - gn_multiply_u(d, r));
+    int32_t step = (int32_t)gn_floor_shift_64(gn_multiply((int32_t)r, (int32_t)gn_floor_shift_64(error, 14)), 47);
+    uint32_t q = 2 * r + (uint32_t)step;
+    int64_t rest = (int64_t)(UINT64_C(0x7fffffffffffffff) - gn_multiply_u(q, d));
+    while (rest < 0) {
+        q--;
+        rest += d;
+    }
+    while (rest >= d) {
+        q++;
+        rest -= d;
+    }
+    return q;
+}
 #endif
 
 #if GN_WIDE_DIVIDE

@@ -123,13 +123,6 @@ GN_INLINE uint32_t gn_divide(uint64_t n, uint32_t d)
 uint32_t gn_divide(uint64_t n, uint32_t d);
 #endif
 
-/* floor((2^63 - 1) / d) for 2^31 <= d < 2^32: in [2^31, 2^32). */
-GN_INLINE uint32_t gn_reciprocal_exact(uint32_t d)
-{
-    GN_ASSERT(d >> 31);
-    return gn_divide(UINT64_C(0x7fffffffffffffff), d);
-}
-
 /* floor(sqrt(v)). */
 uint32_t gn_square_root(uint64_t v);
 
@@ -150,5 +143,15 @@ GN_INLINE uint32_t gn_reciprocal(uint32_t d)
     int32_t error = (int32_t)((d >> 9) * seed);
     return (seed << 15) - (uint32_t)gn_floor_shift((int32_t)seed * gn_floor_shift(error, 14), 9);
 }
+
+/* floor((2^63 - 1) / d) for 2^31 <= d < 2^32: in [2^31, 2^32). */
+#if GN_WIDE_DIVIDE
+GN_INLINE uint32_t gn_reciprocal_exact(uint32_t d)
+{
+    return gn_divide(UINT64_C(0x7fffffffffffffff), d);
+}
+#else
+uint32_t gn_reciprocal_exact(uint32_t d);
+#endif
 
 #endif

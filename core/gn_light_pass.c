@@ -18,17 +18,20 @@
 
 /* ---- spans ----------------------------------------------------------------------------------------------------- */
 
+typedef enum insertion { FIRST, TWO, TWICE, MARKED } insertion;
+
 typedef struct target {
-    gn_depth *first, *second; /* of the region's first row */
-    int32_t stride, row0;
+    gn_depth *first;       /* of the map's first row */
+    gn_depth *second;      /* of the region's first row */
+    int32_t second_offset; /* texels from the map's first row to the region's */
+    int32_t stride;
     gn_depth_plane plane;
     uint32_t open; /* 1: mark as open (mixed) */
+    insertion how;
 #if GN_VECTOR
     gn_u32x16 lanes; /* the plane's step to each of 16 texels */
 #endif
 } target;
-
-typedef enum insertion { FIRST, TWO, TWICE, MARKED } insertion;
 
 /* The depths are stepped in 32 bits and cut to the stored width: 16-bit layers are the upper half of 32-bit ones. */
 GN_INLINE uint32_t start_depth(const target *t, int32_t row, int32_t left)
@@ -73,13 +76,19 @@ GN_INLINE gn_depth cut(uint32_t z, insertion how, uint32_t open)
 
 GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t z, insertion how)
 {
-    gn_depth *z1 = t->first + at, *z2 = t->second + at, *end = z1 + count;
+    gn_depth *z1 = t->first + at, *end = z1 + count;
     uint32_t dx = t->plane.dx, open = t->open;
+    if (how == FIRST) {
+        do {
+            insert_first(z1, cut(z, how, open));
+            z += dx;
+        } while (++z1 != end);
+        return;
+    }
+    gn_depth *z2 = t->second + (at - t->second_offset);
     do {
         gn_depth v = cut(z, how, open);
-        if (how == FIRST)
-            insert_first(z1, v);
-        else if (how == TWICE)
+        if (how == TWICE)
             insert_twice(z1, z2, v);
         else
             insert_two(z1, z2, v);
@@ -121,7 +130,7 @@ GN_INLINE void insert_lanes(const target *t, int32_t at, gn_u32x16 depth, gn_dep
     gn_depthx16 *first = (gn_depthx16 *)(void *)(t->first + at), old = *first;
     *first = nearer(v, old);
     if (how != FIRST) {
-        gn_depthx16 *second = (gn_depthx16 *)(void *)(t->second + at);
+        gn_depthx16 *second = (gn_depthx16 *)(void *)(t->second + (at - t->second_offset));
         *second = nearer(*second, how == TWICE ? v : farther(v, old));
     }
 }
@@ -143,64 +152,84 @@ GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t 
     GN_INLINE void name(const void *state, int32_t row, int32_t left, int32_t right)                                   \
     {                                                                                                                  \
         const target *t = state;                                                                                       \
-        insert_span(t, (row - t->row0) * t->stride + left, right - left, start_depth(t, row, left), how);              \
+        insert_span(t, row * t->stride + left, right - left, start_depth(t, row, left), how);                          \
     }
 SPAN(span_first, FIRST)
+#if GN_VECTOR
 SPAN(span_two, TWO)
 SPAN(span_twice, TWICE)
 SPAN(span_marked, MARKED)
 
-#if GN_VECTOR
 #define TINY(name, how)                                                                                                \
     GN_INLINE void name(const void *state, int32_t row, int32_t column, gn_i32x16 outside)                             \
     {                                                                                                                  \
         const target *t = state;                                                                                       \
         gn_depthx16 far = cut_lanes((gn_u32x16)(outside < 0));                                                         \
-        insert_lanes(t, (row - t->row0) * t->stride + column, t->lanes + start_depth(t, row, column), far, how);       \
+        insert_lanes(t, row * t->stride + column, t->lanes + start_depth(t, row, column), far, how);                   \
     }
 TINY(tiny_first, FIRST)
 TINY(tiny_two, TWO)
 TINY(tiny_twice, TWICE)
 TINY(tiny_marked, MARKED)
+#else
+/* Flash before time: all ways of insertion share one walk, and choose by span; only the first layer has one of its own.
+ */
+GN_INLINE void span_any(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    const target *t = state;
+    int32_t at = row * t->stride + left, count = right - left;
+    uint32_t z = start_depth(t, row, left);
+    if (t->how == FIRST)
+        insert_span(t, at, count, z, FIRST);
+    else if (t->how == TWO)
+        insert_span(t, at, count, z, TWO);
+    else if (t->how == TWICE)
+        insert_span(t, at, count, z, TWICE);
+    else
+        insert_span(t, at, count, z, MARKED);
+}
 #endif
 
 /* ---- triangles ------------------------------------------------------------------------------------------------- */
 
+/* One clockwise triangle whose plane is known. */
+typedef void walk(const target *t, const gn_rows *rows, const gn_window *window);
+
 #if GN_VECTOR
-#define WALK(span, tiny)                                                                                               \
-    if (!gn_walk_tiny_16(v0, v1, v2, window, tiny, t))                                                                 \
-    gn_walk(v0, v1, v2, window, span, t)
+#define WALK(name, span, tiny)                                                                                         \
+    static GN_NOINLINE void name(const target *t, const gn_rows *rows, const gn_window *window)                        \
+    {                                                                                                                  \
+        if (!gn_walk_tiny_16(rows, window, tiny, t))                                                                   \
+            gn_walk(rows, window, rows->cut, span, t);                                                                 \
+    }
+WALK(walk_first, span_first, tiny_first)
+WALK(walk_two, span_two, tiny_two)
+WALK(walk_twice, span_twice, tiny_twice)
+WALK(walk_marked, span_marked, tiny_marked)
+
+static walk *choose_walk(const target *t)
+{
+    return t->how == FIRST ? walk_first : t->how == TWO ? walk_two : t->how == TWICE ? walk_twice : walk_marked;
+}
 #else
-#define WALK(span, tiny) gn_walk(v0, v1, v2, window, span, t)
+static GN_NOINLINE void walk_any(const target *t, const gn_rows *rows, const gn_window *window)
+{
+    gn_walk(rows, window, rows->cut, span_any, t);
+}
+
+static GN_NOINLINE void walk_first(const target *t, const gn_rows *rows, const gn_window *window)
+{
+    if (GN_UNLIKELY(rows->cut))
+        walk_any(t, rows, window);
+    else
+        gn_walk(rows, window, 0, span_first, t);
+}
+
+static walk *choose_walk(const target *t)
+{
+    return t->how == FIRST ? walk_first : walk_any;
+}
 #endif
-
-/* One clockwise triangle whose plane is known: an instance of the walk for each way of insertion. */
-typedef void walk(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                  const gn_window *window);
-
-static GN_NOINLINE void walk_first(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                                   const gn_window *window)
-{
-    WALK(span_first, tiny_first);
-}
-
-static GN_NOINLINE void walk_two(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                                 const gn_window *window)
-{
-    WALK(span_two, tiny_two);
-}
-
-static GN_NOINLINE void walk_twice(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                                   const gn_window *window)
-{
-    WALK(span_twice, tiny_twice);
-}
-
-static GN_NOINLINE void walk_marked(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                                    const gn_window *window)
-{
-    WALK(span_marked, tiny_marked);
-}
 
 /* Which orientation is left out: 1 clockwise on the map (back faces), -1 counter-clockwise (front), 0 none. */
 static int culled_sign(const gn_context *context, uint32_t object)
@@ -211,13 +240,13 @@ static int culled_sign(const gn_context *context, uint32_t object)
     return context->objects[object].mirrored ? -sign : sign;
 }
 
-static walk *choose_walk(const gn_context *context, const gn_mesh *mesh)
+static insertion choose_insertion(const gn_context *context, const gn_mesh *mesh)
 {
     if (context->plan.layers == GN_LAYERS_FIRST)
-        return walk_first;
+        return FIRST;
     if (context->settings.surface == GN_MIXED)
-        return walk_marked;
-    return context->settings.surface == GN_SECOND && !mesh->closed ? walk_twice : walk_two;
+        return MARKED;
+    return context->settings.surface == GN_SECOND && !mesh->closed ? TWICE : TWO;
 }
 
 #if GN_STATISTICS
@@ -228,15 +257,14 @@ GN_INLINE void count_span(const void *state, int32_t row, int32_t left, int32_t 
     (void)row;
     **counter += (uint64_t)(right - left);
 }
-static void count_triangle(gn_worker *worker, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                           const gn_window *window)
+static void count_triangle(gn_worker *worker, const gn_rows *rows, const gn_window *window)
 {
     uint64_t *counter = &worker->statistics.light_texels;
     worker->statistics.light_triangles++;
-    gn_walk(v0, v1, v2, window, count_span, &counter);
+    gn_walk(rows, window, rows->cut, count_span, &counter);
 }
 #else
-#define count_triangle(worker, v0, v1, v2, window) ((void)(worker))
+#define count_triangle(worker, rows, window) ((void)(worker))
 #endif
 
 static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
@@ -248,26 +276,36 @@ static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const
 #endif
 }
 
+/* Insert a triangle of either orientation whose plane is set. */
+GN_INLINE void insert_triangle(gn_worker *worker, const target *t, walk *insert, const gn_rows *rows,
+                               const gn_window *window)
+{
+    insert(t, rows, window);
+    count_triangle(worker, rows, window);
+}
+
 /* A triangle with a corner beyond the planes or the guard band. */
 static GN_NOINLINE void insert_clipped(const gn_context *context, gn_worker *worker, target *t, walk *insert,
-                                       const gn_object *object, const uint32_t index[3], int culled,
-                                       const gn_window *window)
+                                       const gn_object *object, uint32_t triangle, int culled, const gn_window *window)
 {
+    uint32_t index[3];
     gn_place corner[3];
     gn_polygon polygon;
+    gn_rows rows;
+    gn_triangle_indices(object->mesh, triangle, index);
     gn_triangle_places(&context->light_view, object, index, corner);
     gn_clip_triangle(&polygon, &context->light_view, corner);
     if (polygon.area == 0 || (polygon.area > 0 ? 1 : -1) == culled)
         return;
     const gn_vertex *v = polygon.v;
-    set_plane(t, &v[0], &v[polygon.reference], &v[polygon.reference + 1], polygon.area);
+    const gn_vertex *r1 = &v[polygon.reference], *r2 = r1 + 1;
+    set_plane(t, &v[0], polygon.area > 0 ? r1 : r2, polygon.area > 0 ? r2 : r1, polygon.area);
     for (int32_t i = 1; i + 1 < polygon.count; i++) {
         int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
-        if (area == 0 || (area > 0) != (polygon.area > 0) || gn_misses(&v[0], &v[i], &v[i + 1], window))
+        if (area == 0 || (area > 0) != (polygon.area > 0))
             continue;
-        const gn_vertex *second = area > 0 ? &v[i] : &v[i + 1], *third = area > 0 ? &v[i + 1] : &v[i];
-        insert(t, &v[0], second, third, window);
-        count_triangle(worker, &v[0], second, third, window);
+        if (gn_find_rows(&rows, &v[0], area > 0 ? &v[i] : &v[i + 1], area > 0 ? &v[i + 1] : &v[i], window))
+            insert_triangle(worker, t, insert, &rows, window);
     }
 }
 
@@ -276,69 +314,36 @@ static void insert_mesh(const gn_context *context, gn_worker *worker, target *t,
 {
     const gn_object *object = &context->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
-    walk *insert = choose_walk(context, mesh);
     const gn_vertex *vertices = context->vertices + context->objects[object_index].first_vertex;
     int culled = culled_sign(context, object_index), clips = context->objects[object_index].clips;
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+    uint32_t count = mesh->triangle_count, flip = culled > 0 ? 0 : 0x80000000u;
+    t->how = choose_insertion(context, mesh);
+    walk *insert = choose_walk(t);
+    for (uint32_t i = 0; i < count; i++) {
         uint32_t index[3];
         gn_triangle_indices(mesh, i, index);
         const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
         if (clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0)) {
-            insert_clipped(context, worker, t, insert, object, index, culled, window);
+            insert_clipped(context, worker, t, insert, object, i, culled, window);
             continue;
         }
         int64_t area = gn_area(v0, v1, v2);
-        if (area > 0 ? culled > 0 : (area == 0 || culled < 0))
+        /* the usual reject, by the sign alone: areas of the culled sign (and 0, where that is positive) */
+        if (culled && (int32_t)((uint32_t)((uint64_t)area >> 32) ^ flip) >= 0)
             continue;
-        if (gn_misses(v0, v1, v2, window))
+        if (area == 0)
             continue;
-        set_plane(t, v0, v1, v2, area);
         if (area < 0) {
             const gn_vertex *v = v1;
             v1 = v2;
             v2 = v;
         }
-        insert(t, v0, v1, v2, window);
-        count_triangle(worker, v0, v1, v2, window);
+        gn_rows rows;
+        if (!gn_find_rows(&rows, v0, v1, v2, window))
+            continue;
+        set_plane(t, v0, v1, v2, area);
+        insert_triangle(worker, t, insert, &rows, window);
     }
-}
-
-/* ---- bias ------------------------------------------------------------------------------------------------------ */
-
-/* The bias in units of a 32-bit depth; 0xffffffff where it exceeds the range. */
-static uint32_t make_bias(const gn_context *context)
-{
-    const gn_bias *bias = &context->settings.bias;
-    const gn_light *light = &context->light;
-    gn_scaled width = gn_scale(context->settings.map_width, 0), height = gn_scale(context->settings.map_height, 0);
-    gn_scaled value = gn_scale(bias->value, bias->unit == GN_BIAS_RANGE ? -32 : bias->unit == GN_BIAS_TEXELS ? -16 : 0);
-    if (bias->unit != GN_BIAS_RANGE) {
-        /* world: the range's share of one world unit; texels: of one texel, mean of both axes */
-        gn_scaled unit;
-        if (light->kind == GN_DIRECTIONAL) {
-            gn_scaled depth = gn_scale(light->box_depth, 0);
-            unit = gn_scaled_divide(gn_scale(1, 0), depth);
-            if (bias->unit == GN_BIAS_TEXELS) {
-                gn_scaled u = gn_scaled_divide(gn_scale(light->box_width, -1), width);
-                gn_scaled v = gn_scaled_divide(gn_scale(light->box_height, -1), height);
-                unit = gn_scaled_multiply(unit, gn_scaled_add(u, v));
-            }
-        } else {
-            /* dz/dw = f n / ((f - n) w^2) at w = sqrt(n f); a texel there is 2 tan w / N wide */
-            gn_scaled range = gn_scale((int64_t)light->far_depth - light->near_depth, 0);
-            unit = gn_scaled_divide(gn_scale(1, 0), range);
-            if (bias->unit == GN_BIAS_TEXELS) {
-                uint64_t product = gn_multiply_u((uint32_t)light->near_depth, (uint32_t)light->far_depth);
-                gn_scaled w = gn_scale(gn_square_root(product << 4), -2);
-                gn_scaled tangent = gn_scale(light->tan_half, -24);
-                gn_scaled inverse = gn_scaled_add(gn_scaled_divide(tangent, width), gn_scaled_divide(tangent, height));
-                unit = gn_scaled_multiply(unit, gn_scaled_multiply(w, inverse));
-            }
-        }
-        value = gn_scaled_multiply(value, unit);
-    }
-    value = gn_scaled_multiply(value, gn_scale(GN_DEPTH_SPAN, 1));
-    return gn_scaled_bits(value) > 32 ? 0xffffffffu : (uint32_t)gn_scaled_round(value, 0);
 }
 
 /* ---- resolve --------------------------------------------------------------------------------------------------- */
@@ -411,7 +416,7 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
     if (status != GN_OK)
         return status;
     context->light_trusted = (uint8_t)(inside && light->kind == GN_DIRECTIONAL);
-    context->bias = make_bias(context);
+    context->bias = gn_make_bias(context);
     gn_make_falloff(context);
     context->light_ready = 1;
     return GN_OK;
@@ -433,11 +438,11 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     gn_worker *w = &context->workers[worker];
     gn_window window = {0, (int32_t)first_row, context->settings.map_width, (int32_t)(first_row + rows)};
     target t;
-    t.first = context->map + (size_t)first_row * stride;
-    t.second = context->plan.layers == GN_LAYERS_TWO ? w->second : t.first; /* unused, but never null */
+    t.first = context->map;
+    t.second = w->second;
+    t.second_offset = (int32_t)(first_row * stride);
     t.stride = (int32_t)stride;
-    t.row0 = (int32_t)first_row;
-    clear(t.first, (size_t)rows * stride);
+    clear(context->map + (size_t)first_row * stride, (size_t)rows * stride);
     if (context->plan.layers == GN_LAYERS_TWO)
         clear(t.second, (size_t)rows * stride);
     for (uint32_t i = 0; i < context->scene->object_count; i++) {

@@ -52,12 +52,8 @@ GN_INLINE slopes make_slopes(const gn_vertex *v0, const gn_vertex *v1, const gn_
     int32_t dx1 = v1->x - v0->x, dy1 = v1->y - v0->y, dz1 = (int32_t)(v1->depth - v0->depth);
     int32_t dx2 = v2->x - v0->x, dy2 = v2->y - v0->y, dz2 = (int32_t)(v2->depth - v0->depth);
     slopes s;
-    s.nx = gn_multiply(dz1, dy2) - gn_multiply(dz2, dy1);
-    s.ny = gn_multiply(dz2, dx1) - gn_multiply(dz1, dx2);
-    if (area < 0) {
-        s.nx = -s.nx;
-        s.ny = -s.ny;
-    }
+    s.nx = gn_multiply(dz1, dy2) + gn_multiply(-dz2, dy1);
+    s.ny = gn_multiply(dz2, dx1) + gn_multiply(-dz1, dx2);
     normalised a = normalise(magnitude(area));
     s.reciprocal = gn_reciprocal_exact(a.mantissa);
     s.area_shift = a.shift;
@@ -103,7 +99,7 @@ void gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_ve
 }
 
 /* floor(2^32 |n| / A) with n's sign: Q a 1/256 pixel, 32 fraction bits; *steep where that reaches 2^54. */
-GN_INLINE uint64_t q_gradient(int64_t n, const slopes *s, int *steep)
+static GN_NOINLINE uint64_t q_gradient(int64_t n, const slopes *s, int *steep)
 {
     int32_t shift;
     uint64_t q = quotient(n, s->reciprocal, s->area_shift, &shift);

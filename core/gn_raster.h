@@ -35,24 +35,7 @@ GN_INLINE int32_t gn_first_centre(int32_t v)
 /* Twice the area, in 1/256 pixel squared: positive where v0, v1, v2 run clockwise on the screen. |A| < 2^43. */
 GN_INLINE int64_t gn_area(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2)
 {
-    return gn_multiply(v1->x - v0->x, v2->y - v0->y) - gn_multiply(v2->x - v0->x, v1->y - v0->y);
-}
-
-/* Does the triangle's box hold no centre inside the window? */
-GN_INLINE int gn_misses(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, const gn_window *window)
-{
-    int32_t left = v0->x < v1->x ? v0->x : v1->x, right = v0->x < v1->x ? v1->x : v0->x;
-    int32_t top = v0->y < v1->y ? v0->y : v1->y, bottom = v0->y < v1->y ? v1->y : v0->y;
-    left = v2->x < left ? v2->x : left;
-    right = v2->x > right ? v2->x : right;
-    top = v2->y < top ? v2->y : top;
-    bottom = v2->y > bottom ? v2->y : bottom;
-    left = gn_first_centre(left);
-    right = gn_first_centre(right);
-    top = gn_first_centre(top);
-    bottom = gn_first_centre(bottom);
-    return left >= right || top >= bottom || right <= window->column0 || left >= window->column1 ||
-           bottom <= window->row0 || top >= window->row1;
+    return gn_multiply(v1->x - v0->x, v2->y - v0->y) + gn_multiply(v0->x - v2->x, v1->y - v0->y);
 }
 
 /* ---- linear expressions ---------------------------------------------------------------------------------------- */
@@ -86,7 +69,7 @@ typedef struct gn_edge {
 } gn_edge;
 
 /* The edge from its upper vertex down to the lower one, at a row whose centre is at or below the upper vertex and not
- * below the lower one. */
+ * below the lower one. The ceiling of n / d is floor((n - 1) / d) + 1: so both divisions are floors. */
 GN_INLINE void gn_edge_start(gn_edge *edge, const gn_vertex *upper, const gn_vertex *lower, int32_t row)
 {
     int32_t dx = lower->x - upper->x;
@@ -101,24 +84,17 @@ GN_INLINE void gn_edge_start(gn_edge *edge, const gn_vertex *upper, const gn_ver
             s = dy - s;
         }
     }
-    uint32_t p, m;
-    if (GN_LIKELY(t < 2048)) { /* t s < 2^32 */
-        uint32_t ts = t * s;
-        p = ts / dy;
-        m = ts - p * dy;
+    uint32_t p, m = t * s + dy - 1;
+    if (GN_LIKELY(t < 2047)) { /* t s + dy < 2^32 */
+        p = m / dy;
     } else {
-        p = gn_divide(gn_multiply_u(t, s), dy);
-        m = t * s - p * dy;
+        p = gn_divide(gn_multiply_u(t, s) + dy - 1, dy);
     }
-    int32_t u = upper->x - 128 + (int32_t)t * q + (int32_t)p;
-    int32_t remainder = (int32_t)(((uint32_t)u & 255u) * dy + m);
+    m -= p * dy;
+    uint32_t u = (uint32_t)(upper->x - 129 + (int32_t)t * q) + p;
     edge->denominator = (int32_t)(dy << 8);
-    edge->x = gn_floor_shift(u, 8);
-    edge->error = -1;
-    if (remainder) {
-        edge->x++;
-        edge->error = remainder - 1 - edge->denominator;
-    }
+    edge->x = gn_floor_shift((int32_t)u, 8) + 1;
+    edge->error = (int32_t)((u & 255u) * dy + m) - edge->denominator;
     edge->step = q;
     edge->error_step = (int32_t)(s << 8);
 }
@@ -138,44 +114,74 @@ GN_INLINE void gn_edge_step(gn_edge *edge)
 /* What to do with a span: columns [left, right) of a row, left < right. */
 typedef void gn_span(const void *state, int32_t row, int32_t left, int32_t right);
 
-/* Call span for every row of the clockwise triangle (area > 0) inside the window. span must be an inline function. */
-GN_INLINE void gn_walk(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, const gn_window *window,
-                       gn_span *span, const void *state)
+/* A clockwise triangle (area > 0) that may have centres inside a window: rotated so that the top vertex comes first
+ * (the next one is then on the right chain, the last on the left), with the first rows of the vertices, and the rows
+ * [row, bottom) inside the window. */
+typedef struct gn_rows {
+    const gn_vertex *top, *next, *last;
+    int32_t row, row_next, row_last, bottom;
+    int32_t cut; /* columns reach beyond the window */
+} gn_rows;
+
+/* 0 if the triangle's box holds no centre inside the window. */
+GN_INLINE int gn_find_rows(gn_rows *rows, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                           const gn_window *window)
 {
-    /* Rotate so that the top vertex comes first: the next one is then on the right chain, the last on the left. */
-    const gn_vertex *top = v0, *next = v1, *last = v2;
-    if (v1->y < v0->y && v1->y <= v2->y) {
-        top = v1, next = v2, last = v0;
-    } else if (v2->y < v0->y && v2->y < v1->y) {
-        top = v2, next = v0, last = v1;
+    rows->top = v0, rows->next = v1, rows->last = v2;
+    int32_t top = v0->y, next = v1->y, last = v2->y;
+    if (next < top && next <= last) {
+        rows->top = v1, rows->next = v2, rows->last = v0;
+        top = v1->y, next = v2->y, last = v0->y;
+    } else if (last < top) {
+        rows->top = v2, rows->next = v0, rows->last = v1;
+        top = v2->y, next = v0->y, last = v1->y;
     }
-    int32_t row = gn_first_centre(top->y), row_next = gn_first_centre(next->y), row_last = gn_first_centre(last->y);
+    int32_t row = gn_first_centre(top), row_next = gn_first_centre(next), row_last = gn_first_centre(last);
     int32_t bottom = row_next < row_last ? row_last : row_next;
     row = row < window->row0 ? window->row0 : row;
     bottom = bottom > window->row1 ? window->row1 : bottom;
     if (row >= bottom)
-        return;
+        return 0;
+    rows->row = row;
+    rows->row_next = row_next;
+    rows->row_last = row_last;
+    rows->bottom = bottom;
+    int32_t left = v0->x < v1->x ? v0->x : v1->x, right = v0->x < v1->x ? v1->x : v0->x;
+    left = gn_first_centre(v2->x < left ? v2->x : left);
+    right = gn_first_centre(v2->x > right ? v2->x : right);
+    rows->cut = left < window->column0 || right > window->column1;
+    return left < right && right > window->column0 && left < window->column1;
+}
 
-    gn_edge left, right;
+/* Call span for every row of the triangle inside the window. span must be an inline function; cut: rows->cut, or 0
+ * where that is known. */
+GN_INLINE void gn_walk(const gn_rows *rows, const gn_window *window, int32_t cut, gn_span *span, const void *state)
+{
+    const gn_vertex *top = rows->top, *next = rows->next, *last = rows->last;
+    int32_t row = rows->row, row_next = rows->row_next, row_last = rows->row_last, bottom = rows->bottom;
+    /* Each chain has one edge or two; the chain that reaches its middle vertex first changes edges there. */
+    gn_edge left = {0, 0, 0, 0, 0}, right = left;
+    const gn_vertex *left_from = top, *left_to = last, *right_from = top, *right_to = next;
     int32_t end = bottom;
-    if (row < row_last) {
-        gn_edge_start(&left, top, last, row);
+    if (row >= row_last)
+        left_from = last, left_to = next;
+    else
         end = row_last < end ? row_last : end;
-    } else {
-        gn_edge_start(&left, last, next, row);
-    }
-    if (row < row_next) {
-        gn_edge_start(&right, top, next, row);
+    if (row >= row_next)
+        right_from = next, right_to = last;
+    else
         end = row_next < end ? row_next : end;
-    } else {
-        gn_edge_start(&right, next, last, row);
-    }
-    int32_t column0 = window->column0, column1 = window->column1;
     for (;;) {
+        if (left_from)
+            gn_edge_start(&left, left_from, left_to, row);
+        if (right_from)
+            gn_edge_start(&right, right_from, right_to, row);
         do {
             int32_t l = left.x, r = right.x;
-            l = l < column0 ? column0 : l;
-            r = r > column1 ? column1 : r;
+            if (GN_UNLIKELY(cut)) {
+                l = l < window->column0 ? window->column0 : l;
+                r = r > window->column1 ? window->column1 : r;
+            }
             if (l < r)
                 span(state, row, l, r);
             gn_edge_step(&left);
@@ -183,10 +189,11 @@ GN_INLINE void gn_walk(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex
         } while (++row < end);
         if (row >= bottom)
             return;
+        left_from = right_from = 0;
         if (row_next < row_last)
-            gn_edge_start(&right, next, last, row);
+            right_from = next, right_to = last;
         else
-            gn_edge_start(&left, last, next, row);
+            left_from = last, left_to = next;
         end = bottom;
     }
 }
@@ -210,35 +217,30 @@ GN_INLINE int32_t gn_tiny_edge(const gn_vertex *from, const gn_vertex *to, int32
 }
 
 /* The box of a triangle in pixels, cut to the window; 0 if it is wider than most columns or taller than 16 rows. */
-GN_INLINE int gn_tiny_box(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, const gn_window *window,
-                          int32_t most, gn_window *box)
+GN_INLINE int gn_tiny_box(const gn_rows *rows, const gn_window *window, int32_t most, gn_window *box)
 {
+    const gn_vertex *v0 = rows->top, *v1 = rows->next, *v2 = rows->last;
     int32_t left = v0->x < v1->x ? v0->x : v1->x, right = v0->x < v1->x ? v1->x : v0->x;
-    int32_t top = v0->y < v1->y ? v0->y : v1->y, bottom = v0->y < v1->y ? v1->y : v0->y;
     left = v2->x < left ? v2->x : left;
     right = v2->x > right ? v2->x : right;
-    top = v2->y < top ? v2->y : top;
-    bottom = v2->y > bottom ? v2->y : bottom;
-    if (right - left > 256 * most || bottom - top > 256 * 16)
+    if (right - left > 256 * most || v1->y - v0->y > 256 * 16 || v2->y - v0->y > 256 * 16)
         return 0;
     box->column0 = gn_first_centre(left);
     box->column1 = gn_first_centre(right);
-    box->row0 = gn_first_centre(top);
-    box->row1 = gn_first_centre(bottom);
+    box->row0 = rows->row;
+    box->row1 = rows->bottom;
     box->column0 = box->column0 < window->column0 ? window->column0 : box->column0;
-    box->row0 = box->row0 < window->row0 ? window->row0 : box->row0;
-    box->row1 = box->row1 > window->row1 ? window->row1 : box->row1;
     return box->column1 <= window->column1 && box->column1 - box->column0 <= most;
 }
 
 #define GN_TINY_WALK(name, lanes, ...)                                                                                 \
-    GN_INLINE int name(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, const gn_window *window,         \
-                       gn_tiny_span_##lanes *span, const void *state)                                                  \
+    GN_INLINE int name(const gn_rows *rows, const gn_window *window, gn_tiny_span_##lanes *span, const void *state)    \
     {                                                                                                                  \
         static const gn_i32x##lanes lane = {__VA_ARGS__};                                                              \
+        const gn_vertex *v0 = rows->top, *v1 = rows->next, *v2 = rows->last;                                           \
         gn_window box;                                                                                                 \
         int32_t dx0, dy0, dx1, dy1, dx2, dy2;                                                                          \
-        if (!gn_tiny_box(v0, v1, v2, window, lanes, &box))                                                             \
+        if (!gn_tiny_box(rows, window, lanes, &box))                                                                   \
             return 0;                                                                                                  \
         gn_i32x##lanes e0 = gn_tiny_edge(v0, v1, box.column0, box.row0, &dx0, &dy0) - lane * dy0;                      \
         gn_i32x##lanes e1 = gn_tiny_edge(v1, v2, box.column0, box.row0, &dx1, &dy1) - lane * dy1;                      \

@@ -4,9 +4,7 @@
  * needs to find the point in space (gn_shade.c). The greater Q wins; at equal Q the lower triangle identifier: the
  * result does not depend on the order of triangles.
  *
- * Triangles are sorted into bins by the bands of regions they touch, each into one bin: a bin of level k spans 2^k
- * bands and takes triangles that span 2^(k-1)+1 to 2^k of them and start inside it; so a region reads two bins a level.
- * Memory: 8 bytes a pixel of the region and worker; 4 bytes a triangle and a bin. */
+ * A region looks only at the triangles in its bins (gn_bins.c). Memory: 8 bytes a pixel of the region and worker. */
 #include "gn_clip.h"
 #include "gn_context.h"
 
@@ -77,14 +75,13 @@ GN_INLINE void span_visible(const void *state, int32_t row, int32_t left, int32_
 }
 #endif
 
-static GN_NOINLINE void walk_visible(const target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                                     const gn_window *window)
+static GN_NOINLINE void walk_visible(const target *t, const gn_rows *rows, const gn_window *window)
 {
 #if GN_VECTOR
-    if (gn_walk_tiny_8(v0, v1, v2, window, tiny_visible, t))
+    if (gn_walk_tiny_8(rows, window, tiny_visible, t))
         return;
 #endif
-    gn_walk(v0, v1, v2, window, span_visible, t);
+    gn_walk(rows, window, rows->cut, span_visible, t);
 }
 
 #if GN_STATISTICS
@@ -94,28 +91,25 @@ GN_INLINE void count_span(const void *state, int32_t row, int32_t left, int32_t 
     (void)row;
     **counter += (uint64_t)(right - left);
 }
-static void count_triangle(gn_worker *worker, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                           const gn_window *window)
+static void count_triangle(gn_worker *worker, const gn_rows *rows, const gn_window *window)
 {
     uint64_t *counter = &worker->statistics.camera_fragments;
     worker->statistics.camera_triangles++;
-    gn_walk(v0, v1, v2, window, count_span, &counter);
+    gn_walk(rows, window, rows->cut, count_span, &counter);
 }
 #else
-#define count_triangle(worker, v0, v1, v2, window) ((void)(worker))
+#define count_triangle(worker, rows, window) ((void)(worker))
 #endif
 
-/* Draw a triangle of either orientation; its plane is set. */
-static void draw(gn_worker *worker, target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                 int64_t area, const gn_window *window)
+/* Draw a triangle whose plane is set. */
+static void draw(gn_worker *worker, target *t, const gn_rows *rows, const gn_window *window)
 {
-    const gn_vertex *second = area > 0 ? v1 : v2, *third = area > 0 ? v2 : v1;
 #if GN_VECTOR
     static const gn_u64x8 lane = {0, 1, 2, 3, 4, 5, 6, 7};
     t->lanes = lane * t->plane.dx;
 #endif
-    walk_visible(t, v0, second, third, window);
-    count_triangle(worker, v0, second, third, window);
+    walk_visible(t, rows, window);
+    count_triangle(worker, rows, window);
 }
 
 static GN_NOINLINE void draw_clipped(const gn_context *context, gn_worker *worker, target *t, const gn_object *object,
@@ -123,16 +117,20 @@ static GN_NOINLINE void draw_clipped(const gn_context *context, gn_worker *worke
 {
     gn_place corner[3];
     gn_polygon polygon;
+    gn_rows rows;
     gn_triangle_places(&context->camera_view, object, index, corner);
     gn_clip_triangle(&polygon, &context->camera_view, corner);
     if (polygon.area == 0)
         return;
     const gn_vertex *v = polygon.v;
-    gn_make_q_plane(&t->plane, &v[0], &v[polygon.reference], &v[polygon.reference + 1], polygon.area);
+    const gn_vertex *r1 = &v[polygon.reference], *r2 = r1 + 1;
+    gn_make_q_plane(&t->plane, &v[0], polygon.area > 0 ? r1 : r2, polygon.area > 0 ? r2 : r1, polygon.area);
     for (int32_t i = 1; i + 1 < polygon.count; i++) {
         int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
-        if (area && (area > 0) == (polygon.area > 0) && !gn_misses(&v[0], &v[i], &v[i + 1], window))
-            draw(worker, t, &v[0], &v[i], &v[i + 1], area, window);
+        if (area == 0 || (area > 0) != (polygon.area > 0))
+            continue;
+        if (gn_find_rows(&rows, &v[0], area > 0 ? &v[i] : &v[i + 1], area > 0 ? &v[i + 1] : &v[i], window))
+            draw(worker, t, &rows, window);
     }
 }
 
@@ -150,13 +148,25 @@ static void draw_triangle(const gn_context *context, gn_worker *worker, target *
         draw_clipped(context, worker, t, object, index, window);
         return;
     }
-    if (gn_misses(v0, v1, v2, window))
-        return;
+    gn_rows rows;
     int64_t area = gn_area(v0, v1, v2);
-    if (area == 0)
+    if (area < 0) {
+        const gn_vertex *v = v1;
+        v1 = v2;
+        v2 = v;
+    }
+    if (area == 0 || !gn_find_rows(&rows, v0, v1, v2, window))
         return;
     gn_make_q_plane(&t->plane, v0, v1, v2, area);
-    draw(worker, t, v0, v1, v2, area, window);
+    draw(worker, t, &rows, window);
+}
+
+static void clear(uint32_t *plane, uint32_t count, uint32_t value)
+{
+    for (; count >= 4; count -= 4, plane += 4)
+        plane[0] = plane[1] = plane[2] = plane[3] = value;
+    while (count--)
+        *plane++ = value;
 }
 
 void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window *window)
@@ -168,10 +178,8 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
     t.row0 = window->row0;
     t.column0 = window->column0;
     uint32_t count = (uint32_t)(t.stride * (window->row1 - window->row0));
-    for (uint32_t i = 0; i < count; i++) {
-        t.q[i] = 1; /* below every Q of a surface, and a divisor */
-        t.triangle[i] = GN_NO_TRIANGLE;
-    }
+    clear(t.q, count, context->shading.nothing);
+    clear(t.triangle, count, GN_NO_TRIANGLE);
     if (!context->bin_count) {
         for (uint32_t o = 0; o < context->scene->object_count; o++)
             for (uint32_t i = 0; i < context->scene->objects[o].mesh->triangle_count; i++)
@@ -190,102 +198,4 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
         }
         first_bin += ((context->bands - 1) >> level) + 1;
     }
-}
-
-/* ---- bins ------------------------------------------------------------------------------------------------------ */
-
-void gn_count_bins(const gn_plan *plan, const gn_settings *settings, uint32_t *bands, uint32_t *levels, uint32_t *bins)
-{
-    uint32_t n = ((uint32_t)settings->height + plan->region_height - 1) / plan->region_height;
-    *bands = n;
-    *levels = 0;
-    *bins = 0;
-    if (n == 1)
-        return; /* one band: every triangle is looked at once anyway */
-    uint32_t span;
-    do {
-        span = 1u << *levels;
-        *bins += ((n - 1) >> *levels) + 1;
-        ++*levels;
-    } while (span < n);
-}
-
-/* The bin of screen rows [top, bottom). */
-static int32_t bin_of_rows(const gn_context *context, int32_t top, int32_t bottom)
-{
-    if (top >= bottom || bottom <= 0 || top >= context->settings.height)
-        return -1;
-    top = top < 0 ? 0 : top;
-    bottom = bottom > context->settings.height ? context->settings.height : bottom;
-    uint32_t first = (uint32_t)top / context->plan.region_height;
-    uint32_t last = (uint32_t)(bottom - 1) / context->plan.region_height, level = 0, bin = 0;
-    while (last - first >= 1u << level) {
-        bin += ((context->bands - 1) >> level) + 1;
-        level++;
-    }
-    return (int32_t)(bin + (first >> level));
-}
-
-/* -1: not on the screen. */
-static int32_t bin_of_triangle(const gn_context *context, uint32_t object_index, uint32_t triangle)
-{
-    const gn_object *object = &context->scene->objects[object_index];
-    const gn_object_state *state = &context->objects[object_index];
-    const gn_vertex *vertices = context->vertices + state->first_vertex;
-    gn_window screen = {0, 0, context->settings.width, context->settings.height};
-    uint32_t index[3];
-    gn_triangle_indices(object->mesh, triangle, index);
-    const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
-    int32_t top, bottom;
-    if (state->clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0)) {
-        gn_place corner[3];
-        gn_polygon polygon;
-        gn_triangle_places(&context->camera_view, object, index, corner);
-        gn_clip_triangle(&polygon, &context->camera_view, corner);
-        if (polygon.area == 0)
-            return -1;
-        top = bottom = polygon.v[0].y;
-        for (int32_t i = 1; i < polygon.count; i++) {
-            top = polygon.v[i].y < top ? polygon.v[i].y : top;
-            bottom = polygon.v[i].y > bottom ? polygon.v[i].y : bottom;
-        }
-    } else {
-        if (gn_misses(v0, v1, v2, &screen))
-            return -1;
-        top = v0->y < v1->y ? v0->y : v1->y;
-        top = v2->y < top ? v2->y : top;
-        bottom = v0->y > v1->y ? v0->y : v1->y;
-        bottom = v2->y > bottom ? v2->y : bottom;
-    }
-    return bin_of_rows(context, gn_first_centre(top), gn_first_centre(bottom));
-}
-
-/* Counting sort: count, sum up, then place from the back, so that each bin holds its triangles in order. */
-gn_status gn_make_bins(gn_context *context)
-{
-    const gn_scene *scene = context->scene;
-    uint32_t *first = context->bin_first, sum = 0;
-    if (!context->bin_count)
-        return GN_OK;
-    for (uint32_t i = 0; i <= context->bin_count; i++)
-        first[i] = 0;
-    for (uint32_t o = 0; o < scene->object_count; o++) {
-        for (uint32_t i = 0; i < scene->objects[o].mesh->triangle_count; i++) {
-            int32_t bin = bin_of_triangle(context, o, i);
-            if (bin >= 0)
-                first[bin]++;
-        }
-    }
-    for (uint32_t i = 0; i <= context->bin_count; i++) {
-        sum += first[i];
-        first[i] = sum;
-    }
-    for (uint32_t o = scene->object_count; o-- > 0;) {
-        for (uint32_t i = scene->objects[o].mesh->triangle_count; i-- > 0;) {
-            int32_t bin = bin_of_triangle(context, o, i);
-            if (bin >= 0)
-                context->bin_items[--first[bin]] = o << context->triangle_bits | i;
-        }
-    }
-    return GN_OK;
 }

@@ -1,0 +1,85 @@
+/* The two colours of a triangle, lit and unlit: flat Lambert shading with ambient light, two-sided.
+ *
+ * colour = c (ambient + (1 - ambient) max(N.L, 0) lit). A triangle is lit where camera and light are on the same side
+ * of its plane, decided exactly; otherwise it is shadowed before any look-up counts. For a spot light only what is
+ * constant on the plane is made here: h, the light's distance from it, of N.L = h / |point - light|. */
+#include "gn_lambert.h"
+
+/* Sign of n . v, exactly: |n| < 2^53, |v| <= 2^30. */
+static int dot_sign(const int64_t n[3], const int32_t v[3])
+{
+    int64_t high = 0, low = 0;
+    for (int i = 0; i < 3; i++) {
+        high += gn_floor_shift_64(n[i], 26) * v[i];
+        low += (n[i] & 0x3ffffff) * v[i];
+    }
+    high += gn_floor_shift_64(low, 26);
+    return high < 0 ? -1 : high > 0 || (low & 0x3ffffff) ? 1 : 0;
+}
+
+/* n scaled to components below 2^30, the largest at least 2^29. n != 0. */
+static void normalise(int32_t out[3], const int64_t n[3])
+{
+    uint64_t largest = 0;
+    for (int i = 0; i < 3; i++) {
+        uint64_t m = n[i] < 0 ? 0u - (uint64_t)n[i] : (uint64_t)n[i];
+        largest = m > largest ? m : largest;
+    }
+    int32_t excess = 34 - (int32_t)gn_leading_zeros_64(largest);
+    for (int i = 0; i < 3; i++)
+        out[i] = (int32_t)(excess > 0 ? gn_floor_shift_64(n[i], (unsigned)excess) : n[i] * ((int64_t)1 << -excess));
+}
+
+GN_INLINE uint64_t magnitude_dot(const int32_t n[3], const int32_t v[3])
+{
+    int64_t dot = gn_multiply(n[0], v[0]) + gn_multiply(n[1], v[1]) + gn_multiply(n[2], v[2]);
+    return dot < 0 ? 0u - (uint64_t)dot : (uint64_t)dot;
+}
+
+void gn_make_pair(const gn_context *context, gn_colour_pair *pair, uint32_t triangle)
+{
+    uint8_t format = context->settings.format;
+    pair->triangle = triangle;
+    pair->distance = 0;
+    pair->distance_shift = 0;
+    pair->faces_light = 0;
+    if (triangle == GN_NO_TRIANGLE) {
+        pair->lit = pair->unlit = gn_pack(context->scene->background, 0x10000u, format);
+        return;
+    }
+    const gn_object *object = &context->scene->objects[triangle >> context->triangle_bits];
+    const gn_light *light = &context->light;
+    const gn_camera *camera = &context->camera;
+    uint32_t index[3];
+    int32_t p[3][3], to_camera[3], to_light[3], unit[3];
+    int64_t n[3];
+    gn_triangle_indices(object->mesh, triangle & (((uint32_t)1 << context->triangle_bits) - 1), index);
+    for (int i = 0; i < 3; i++)
+        (void)gn_world_position(object, index[i], p[i]);
+    for (int i = 0; i < 3; i++) {
+        int j = i < 2 ? i + 1 : 0, k = 3 - i - j;
+        n[i] = gn_multiply(p[1][j] - p[0][j], p[2][k] - p[0][k]) - gn_multiply(p[1][k] - p[0][k], p[2][j] - p[0][j]);
+        to_camera[i] = camera->projection == GN_PERSPECTIVE ? camera->eye[i] - p[0][i] : -camera->forward[i];
+        to_light[i] = light->kind == GN_SPOT ? light->position[i] - p[0][i] : -light->forward[i];
+    }
+    pair->lit = pair->unlit = gn_pack(object->colour, gn_intensity(context, 0), format);
+    int side = dot_sign(n, to_light);
+    if (side == 0 || side != dot_sign(n, to_camera))
+        return;
+    pair->faces_light = 1;
+    normalise(unit, n);
+    uint32_t length = gn_square_root(magnitude_dot(unit, unit));
+    uint64_t dot = magnitude_dot(unit, to_light);
+    if (light->kind == GN_DIRECTIONAL) {
+        uint32_t cosine = gn_divide(dot >> 14, length);
+        pair->lit = gn_pack(object->colour, gn_intensity(context, cosine), format);
+        return;
+    }
+    /* h / near = distance 2^(-18 - shift) near / |point - light| in 2^-30 */
+    gn_scaled h = gn_scaled_divide(gn_scale((int64_t)dot, 0),
+                                   gn_scaled_multiply(gn_scale(length, 0), gn_scale(light->near_depth, 0)));
+    if (h.m == 0 || h.e + 18 < -31)
+        return;
+    pair->distance = (uint32_t)h.m;
+    pair->distance_shift = h.e + 18 > 0 ? 0 : (uint8_t)(-18 - h.e);
+}
