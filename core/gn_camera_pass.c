@@ -5,7 +5,7 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
 {
     if (!context || !camera)
         return GN_BAD_ARGUMENT;
-    if (!context->light_done)
+    if (!context->light_ready)
         return GN_NOT_READY;
     context->camera_ready = 0;
     gn_lay_out_camera(context, &context->plan, &context->settings);

@@ -73,7 +73,7 @@ struct gn_context {
     gn_view light_view;
     uint32_t bias; /* in units of a 32-bit depth */
     uint8_t light_trusted;
-    uint8_t light_ready, light_done, camera_ready;
+    uint8_t light_ready, camera_ready;
     uint16_t falloff[GN_FALLOFF_STEPS + 2]; /* spot: w / distance by (u^2 + v^2), Q1.15 */
 
     gn_camera camera;

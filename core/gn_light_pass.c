@@ -394,7 +394,6 @@ gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker
         for (size_t i = 0; i < count; i++)
             z1[i] = z1[i] & 1 ? dual(z1[i], z2[i], bias) : z2[i];
     }
-    context->light_done = 1;
     return GN_OK;
 }
 
@@ -404,7 +403,7 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
 {
     if (!context || !light)
         return GN_BAD_ARGUMENT;
-    context->light_ready = context->light_done = context->camera_ready = 0;
+    context->light_ready = context->camera_ready = 0;
     gn_lay_out_light(context, &context->plan, &context->settings);
     context->light = *light;
     gn_status status =

@@ -265,7 +265,7 @@ gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings
 gn_status gn_light_pass(gn_context *context, const gn_light *light);
 
 /* The same in steps: begin; then for every region in any order, on any worker (0 .. workers-1, each used by one thread
- * at a time): layers, then resolve. Regions are independent jobs. */
+ * at a time): layers, then resolve. Regions are independent jobs; all must be done before gn_camera_begin. */
 gn_status gn_light_begin(gn_context *context, const gn_light *light);
 gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker);
 gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker);

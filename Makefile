@@ -1,0 +1,293 @@
+# gnomon. Plain `make` needs a C compiler and make alone; `make help` lists the targets.
+#
+# What may be set: BUILD (folder of everything made), CC, CXX, HOST_ARCH (code of the simulator; empty: any machine),
+# OIIO (yes: link OpenImageIO; default: where pkg-config finds it), V=1 (show commands).
+
+BUILD ?= build
+HOST_ARCH ?= -march=native
+OIIO ?= $(shell pkg-config --exists OpenImageIO 2>/dev/null && command -v $(CXX) >/dev/null && echo yes)
+WERROR ?=
+V ?= 0
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SUFFIXES:
+MAKEFLAGS += --no-builtin-rules
+comma := ,
+quiet := $(if $(filter 0,$(V)),@)
+say = $(if $(filter 0,$(V)),@echo "  $(1)  $@")
+
+# ---- what is compiled, and how -------------------------------------------------------------------------------------
+
+CORE := $(wildcard core/*.c)
+HOST := $(wildcard host/*.c)
+EMBEDDED_TARGETS :=
+HOSTED_TARGETS :=
+include $(wildcard port/*/*.mk)
+
+WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wundef -Wvla -Wwrite-strings -Wstrict-prototypes -Wmissing-prototypes
+STRICT_WARNINGS := $(WARNINGS) -Wconversion -Wcast-qual -Wcast-align
+
+# By the top folder of a source.
+FLAGS_core := -std=c99 -ffreestanding $(STRICT_WARNINGS)
+FLAGS_port := -std=c99 $(STRICT_WARNINGS) -Icore -Ihost -Iport -I$(BUILD)/golden
+FLAGS_host := -std=c99 -D_XOPEN_SOURCE=700 -pthread $(WARNINGS) -Icore -Ihost
+FLAGS_tests := $(FLAGS_host) -Itests
+
+DEPTHS := 16 32
+
+# Builds for this machine: the plain library, the simulator, and the two that look for mistakes.
+library_FLAGS := -O2
+host_FLAGS := -O3 $(HOST_ARCH) -DGN_STATISTICS=1
+checked_FLAGS := -O2 -g -DGN_CHECKED=1 -DGN_STATISTICS=1
+sanitized_FLAGS := -O1 -g -DGN_STATISTICS=1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+
+ifeq ($(OIIO),yes)
+# The simulator alone: with the sanitizers the library's own leaks would show.
+host_FLAGS += -DGNOMON_OIIO=1
+host_OBJECTS := host/oiio.o
+host_LIBRARIES := $(shell pkg-config --libs OpenImageIO) -lstdc++
+OIIO_FLAGS := -std=c++17 -O2 -Wall -Wextra $(shell pkg-config --cflags OpenImageIO)
+endif
+
+# ---- objects -------------------------------------------------------------------------------------------------------
+
+# Everything is compiled anew when a flag changes, for instance because OpenImageIO was installed.
+ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(WERROR)
+$(BUILD)/flags: always
+	@mkdir -p $(@D)
+	@echo '$(ALL_FLAGS)' | cmp -s - $@ || echo '$(ALL_FLAGS)' >$@
+
+# $(call compile,FOLDER,COMPILER,FLAGS): build/objects/FOLDER/core/x.o from core/x.c, and so on.
+define compile
+$(BUILD)/objects/$(1)/%.o: %.c $(BUILD)/flags
+	$$(call say,$(1))
+	@mkdir -p $$(@D)
+	$(quiet)$(2) $$(FLAGS_$$(firstword $$(subst /, ,$$<))) $(3) $(WERROR) $(CFLAGS) -MMD -MP -c $$< -o $$@
+endef
+
+# $(call objects,FOLDER,SOURCES)
+objects = $(patsubst %.c,$(BUILD)/objects/$(1)/%.o,$(2))
+
+define archive
+	$(call say,archive)
+	@mkdir -p $(@D)
+	@rm -f $@
+	$(quiet)$(1)ar rcs $@ $^
+endef
+
+HOST_BUILDS := library host checked sanitized
+$(foreach b,$(HOST_BUILDS),$(foreach d,$(DEPTHS),\
+	$(eval $(call compile,$(b)-$(d),$(CC),$($(b)_FLAGS) -DGN_DEPTH_BITS=$(d)))))
+
+$(BUILD)/objects/host-16/host/oiio.o $(BUILD)/objects/host-32/host/oiio.o: host/oiio.cpp $(BUILD)/flags
+	$(call say,oiio)
+	@mkdir -p $(@D)
+	$(quiet)$(CXX) $(OIIO_FLAGS) $(WERROR) -MMD -MP -c $< -o $@
+
+-include $(shell find $(BUILD)/objects -name '*.d' 2>/dev/null)
+
+# ---- the library and the simulator ---------------------------------------------------------------------------------
+
+all: $(BUILD)/libgnomon.a $(BUILD)/libgnomon32.a $(BUILD)/gnomon $(BUILD)/gnomon32 ## build the library and the simulator for 16 and 32 bits of depth (the default)
+
+$(BUILD)/libgnomon.a: $(call objects,library-16,$(CORE))
+	$(archive)
+$(BUILD)/libgnomon32.a: $(call objects,library-32,$(CORE))
+	$(archive)
+
+# $(call simulator,PROGRAM,BUILD-DEPTH,BUILD)
+define simulator
+$(1): $(call objects,$(2),$(HOST) $(CORE)) $(addprefix $(BUILD)/objects/$(2)/,$($(3)_OBJECTS))
+	$$(call say,link)
+	@mkdir -p $$(@D)
+	$(quiet)$(CC) $($(3)_FLAGS) -pthread $$^ $($(3)_LIBRARIES) -lm -o $$@
+endef
+$(eval $(call simulator,$(BUILD)/gnomon,host-16,host))
+$(eval $(call simulator,$(BUILD)/gnomon32,host-32,host))
+$(foreach b,checked sanitized,$(foreach d,$(DEPTHS),\
+	$(eval $(call simulator,$(BUILD)/$(b)-$(d)/gnomon,$(b)-$(d),$(b)))))
+
+demo: ## install OpenImageIO if it is missing, render the built-in scenes, name the pictures
+	$(quiet)tests/setup.sh demo
+	$(quiet)$(MAKE) --no-print-directory -j$$(nproc) all
+	$(quiet)$(MAKE) --no-print-directory demo-pictures
+
+demo-pictures: $(BUILD)/gnomon
+	@mkdir -p $(BUILD)/demo
+	$(quiet)$< procedural all -o $(BUILD)/demo
+	$(quiet)for scene in $(BUILD)/demo/*.scene; do $< render $$scene -o $${scene%.scene}.png || exit 1; done
+	@echo "The pictures:"
+	@ls $(BUILD)/demo/*.png
+
+# ---- targets: libraries and programs of port/ ----------------------------------------------------------------------
+
+PROGRAM := port/print.c
+GOLDEN_SCENES := lshape torus2 table pipes pins fence
+GOLDEN_HEADERS := $(GOLDEN_SCENES:%=$(BUILD)/golden/%.h)
+# The simulator's own build and the two that look for mistakes take part as well.
+TARGETS := $(EMBEDDED_TARGETS) $(HOSTED_TARGETS) host checked sanitized
+TARGET_DEPTHS := $(foreach d,$(DEPTHS),$(addsuffix -$(d),$(TARGETS)))
+EMBEDDED_DEPTHS := $(foreach d,$(DEPTHS),$(addsuffix -$(d),$(EMBEDDED_TARGETS)))
+
+# Scenes are packed once, on this machine, and compiled for all targets. A header that comes out equal keeps its date.
+$(BUILD)/golden/%.h: $(BUILD)/gnomon
+	$(call say,pack)
+	@mkdir -p $(@D)/new
+	$(quiet)$< procedural $* -o $(@D) && $< pack $(@D)/$*.scene -o $(@D)/new/$(@F) >/dev/null
+	@cmp -s $(@D)/new/$(@F) $@ || cp $(@D)/new/$(@F) $@
+
+$(BUILD)/golden/footprint.h: $(BUILD)/gnomon port/footprint/scene.awk
+	$(call say,pack)
+	@mkdir -p $(@D)
+	$(quiet)awk -v folder=$(@D) -f port/footprint/scene.awk && $< pack $(@D)/footprint.scene -o $@ >/dev/null
+
+# -fcallgraph-info: what a function needs of the stack, and what it calls.
+$(foreach t,$(EMBEDDED_TARGETS),$(foreach d,$(DEPTHS),\
+	$(eval $(call compile,$(t)-$(d),$($(t)_TOOL)gcc,-O2 -ffreestanding $($(t)_FLAGS) -DGN_DEPTH_BITS=$(d) \
+		-ffunction-sections -fdata-sections -fcallgraph-info=su))))
+$(foreach t,$(HOSTED_TARGETS),$(foreach d,$(DEPTHS),\
+	$(eval $(call compile,$(t)-$(d),$($(t)_CC),$($(t)_FLAGS) -DGN_DEPTH_BITS=$(d)))))
+
+# $(call embedded_rules,TARGET,TARGET-DEPTH)
+define embedded_rules
+$(BUILD)/$(2)/libgnomon.a: $(call objects,$(2),$(CORE))
+	$$(call archive,$($(1)_TOOL))
+$(BUILD)/$(2)/%.elf: $(BUILD)/objects/$(2)/port/%.o $(call objects,$(2),$(PROGRAM) $($(1)_PORT)) $(BUILD)/$(2)/libgnomon.a
+	$$(call say,link)
+	@mkdir -p $$(@D)
+	$(quiet)$($(1)_TOOL)gcc $($(1)_FLAGS) $($(1)_LINK) $$^ -lgcc -o $$@
+$(BUILD)/objects/$(2)/port/firmware.o: $(GOLDEN_HEADERS)
+$(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
+	$$(call run_firmware,$$($(1)_RUN) -kernel)
+$(BUILD)/$(2)/minimal_main.txt: $(BUILD)/$(2)/minimal_main.elf
+	$$(call run_firmware,$$($(1)_RUN) -kernel)
+endef
+$(foreach t,$(EMBEDDED_TARGETS),$(foreach d,$(DEPTHS),$(eval $(call embedded_rules,$(t),$(t)-$(d)))))
+
+# $(call hosted_rules,TARGET,TARGET-DEPTH)
+define hosted_rules
+$(BUILD)/$(2)/%.elf: $(call objects,$(2),port/%.c $(PROGRAM) port/linux/console.c $(CORE))
+	$$(call say,link)
+	@mkdir -p $$(@D)
+	$(quiet)$(or $($(1)_CC),$(CC)) $($(1)_FLAGS) $$^ $($(1)_LINK) -o $$@
+$(BUILD)/objects/$(2)/port/firmware.o: $(GOLDEN_HEADERS)
+$(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
+	$$(call run_firmware,$$($(1)_RUN))
+$(BUILD)/$(2)/minimal_main.txt: $(BUILD)/$(2)/minimal_main.elf
+	$$(call run_firmware,$$($(1)_RUN))
+endef
+$(foreach t,$(filter-out $(EMBEDDED_TARGETS),$(TARGETS)),$(foreach d,$(DEPTHS),$(eval $(call hosted_rules,$(t),$(t)-$(d)))))
+
+# $(call run_firmware,COMMAND): what the firmware printed, also when it failed.
+define run_firmware
+	$(call say,run)
+	@mkdir -p $(@D)
+	$(quiet)$(1) $< </dev/null >$@ || { echo "error exit status $$?" >>$@; tail -n 2 $@; }
+endef
+
+.SECONDARY:
+
+hashes: $(TARGET_DEPTHS:%=$(BUILD)/hashes/%.txt) ## render the golden scenes on every target; fail where two hashes differ
+	$(quiet)awk -f tests/golden/compare.awk tests/golden/hashes.txt $^
+
+accept-hashes: $(BUILD)/hashes/gcc-O0-16.txt $(BUILD)/hashes/gcc-O0-32.txt ## make today's hashes the golden ones (with a new GN_BITS_VERSION)
+	$(quiet)awk -f tests/golden/accept.awk $^ >$(BUILD)/hashes.new && mv $(BUILD)/hashes.new tests/golden/hashes.txt
+
+# ---- figures: instructions, bytes ----------------------------------------------------------------------------------
+
+BENCH_TARGETS := cortex-m4 cortex-m0 rv32imc
+BENCH_COUNTS := $(BENCH_TARGETS:%=$(BUILD)/bench/%.count)
+QEMU_MAJOR = $(shell qemu-system-arm --version | sed -n 's/.*version \([0-9]*\).*/\1/p')
+
+$(BUILD)/bench/count_plugin.so: port/bench/count_plugin.c
+	$(call say,plugin)
+	@mkdir -p $(@D)
+	$(quiet)$(CC) -std=gnu11 -O2 $(WARNINGS) -fPIC -shared -DPLUGIN_API=$$(($(QEMU_MAJOR) >= 9 ? 2 : 1)) $< -o $@
+
+# $(call count,PLUGIN OPTIONS): what the program printed, then what the plugin counted.
+define count
+	$(call say,count)
+	$(quiet)address() { echo 0x$$($($*_TOOL)nm $< | awk -v name=$$1 '$$3 == name { print $$1 }'); }; \
+	$($*_RUN) -kernel $< \
+		-plugin $(BUILD)/bench/count_plugin.so,begin=$$(address mark_begin),end=$$(address mark_end)$(1) \
+		</dev/null >$@ 2>$@.regions || { echo "error exit status $$?"; tail -n 2 $@ $@.regions; }
+	@cat $@.regions >>$@
+endef
+
+$(BUILD)/bench/%.count: $(BUILD)/%-16/bench/bench.elf $(BUILD)/bench/count_plugin.so
+	$(call count)
+$(BUILD)/bench/%.profile: $(BUILD)/%-16/bench/bench.elf $(BUILD)/bench/count_plugin.so
+	$(call count,$(comma)functions=on)
+
+bench-targets: $(BENCH_COUNTS) ## count instructions on Cortex-M4, Cortex-M0 and rv32imc; fail where the M4 exceeds a limit
+	$(quiet)awk -f port/bench/table.awk $^
+
+profile: $(BENCH_TARGETS:%=$(BUILD)/bench/%.profile) ## say what each function took of each case of bench-targets
+	@awk 'FNR == 1 { n = 0 } $$1 == "case" { name[n++] = $$2 } $$1 == "region" { print FILENAME, name[$$2], $$4 } \
+		$$1 == "function" && $$2 > 100 { printf "%12d %s\n", $$2, $$3 }' $^
+
+$(BUILD)/objects/cortex-m4-16/port/footprint/footprint.o: $(BUILD)/golden/footprint.h
+$(BUILD)/cortex-m4-16/footprint/footprint.elf: cortex-m4_LINK = $(call arm_link,port/footprint/board.ld)
+$(BUILD)/cortex-m4-16/footprint/footprint.txt: $(BUILD)/cortex-m4-16/footprint/footprint.elf
+	$(call run_firmware,$(cortex-m4_RUN) -kernel)
+
+sizes: $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) $(BUILD)/cortex-m4-16/footprint/footprint.txt ## flash, RAM and stack of the core by target
+	$(quiet)port/footprint/sizes.sh $(BUILD) $(EMBEDDED_DEPTHS)
+
+# ---- tests ---------------------------------------------------------------------------------------------------------
+
+CORE_TESTS := $(wildcard tests/core/*.c)
+HOST_TESTS := $(wildcard tests/host/*.c)
+SHELL_TESTS := $(wildcard tests/*/*.sh)
+TEST_BUILDS := $(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),$(b)-$(d)))
+TEST_PROGRAMS := $(foreach b,$(TEST_BUILDS),$(patsubst %.c,$(BUILD)/$(b)/%,$(CORE_TESTS) $(HOST_TESTS)))
+
+# $(call test_rules,BUILD-DEPTH,BUILD): tests of the simulator link all of it but its main.
+define test_rules
+$(BUILD)/$(1)/tests/core/%: $(BUILD)/objects/$(1)/tests/core/%.o $(call objects,$(1),$(CORE))
+	$$(call say,link)
+	@mkdir -p $$(@D)
+	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ -lm -o $$@
+$(BUILD)/$(1)/tests/host/%: $(BUILD)/objects/$(1)/tests/host/%.o \
+		$(call objects,$(1),$(filter-out host/main.c,$(HOST)) $(CORE)) $(addprefix $(BUILD)/objects/$(1)/,$($(2)_OBJECTS))
+	$$(call say,link)
+	@mkdir -p $$(@D)
+	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ $($(2)_LIBRARIES) -lm -o $$@
+endef
+$(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),$(eval $(call test_rules,$(b)-$(d),$(b)))))
+
+TEST_INPUTS := all $(TEST_PROGRAMS) $(BUILD)/sanitized-16/gnomon $(TARGET_DEPTHS:%=$(BUILD)/hashes/%.txt) \
+	$(TARGET_DEPTHS:%=$(BUILD)/%/minimal_main.txt) $(BENCH_COUNTS) $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) \
+	$(BUILD)/cortex-m4-16/footprint/footprint.txt
+
+test: ## install what is missing, build for host and targets, run everything, count what passed and failed
+	$(quiet)tests/setup.sh test
+	$(quiet)$(MAKE) --no-print-directory -j$$(nproc) WERROR=-Werror test-inputs || { echo "0 passed, 1 failed"; exit 1; }
+	$(quiet)$(MAKE) --no-print-directory WERROR=-Werror run-tests
+
+test-inputs: $(TEST_INPUTS)
+
+# What shell tests find in their environment.
+export BUILD CC
+export GNOMON := $(BUILD)/gnomon
+export EMBEDDED_DEPTHS TARGET_DEPTHS
+
+PROVE = prove --exec '' -j$$(nproc)
+
+run-tests: test-inputs
+	$(quiet)$(PROVE) $(TEST_PROGRAMS) $(SHELL_TESTS) 2>&1 | tee $(BUILD)/prove.log
+	$(quiet)GNOMON=$(BUILD)/sanitized-16/gnomon $(PROVE) $(filter tests/host/%,$(SHELL_TESTS)) 2>&1 | tee -a $(BUILD)/prove.log
+	@awk -v expected_runs=2 -f tests/summary.awk $(BUILD)/prove.log
+
+# ---- the rest ------------------------------------------------------------------------------------------------------
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+clean: ## remove everything made
+	rm -rf $(BUILD)
+
+always:
+
+.PHONY: all demo demo-pictures hashes accept-hashes bench-targets profile sizes test test-inputs run-tests help clean always

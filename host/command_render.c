@@ -1,0 +1,279 @@
+/* gnomon render: a scene in, a shadowed image, masks, depth layers, hashes and statistics out. */
+#include "commands.h"
+#include "file.h"
+#include "frame.h"
+#include "image.h"
+#include "json.h"
+#include "render_options.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char render_summary[] = "render a scene with shadows, from a .scene or .gno file";
+
+enum {
+    OUTPUT_HEAD = RENDER_OPTION_COUNT,
+    OUTPUT_IMAGE,
+    OUTPUT_MASK,
+    OUTPUT_DEPTH,
+    OUTPUT_SECOND_DEPTH,
+    OUTPUT_MAP,
+    OUTPUT_STATS,
+    OUTPUT_HASH,
+    WORK,
+    VERBOSE = WORK + WORK_OPTION_COUNT,
+    HELP,
+    OPTION_COUNT
+};
+
+static const option table[OPTION_COUNT] = {
+    RENDER_OPTIONS,
+    {0, 0, "What is written (.ppm, .pgm, .pfm; with OpenImageIO also .png, .exr and others):"},
+    {"-o", "FILE", "the image, 8 bits a channel"},
+    {"--mask", "FILE", "8-bit grey: 0 shadowed, 254 lit, 255 no surface"},
+    {"--depth", "FILE", "nearest depths as seen by the light, 16-bit grey; .pfm, .exr: 0 near to 1 far"},
+    {"--second-depth", "FILE", "second nearest depths, where the method keeps two layers"},
+    {"--map-image", "FILE", "the depths that pixels are compared with, made of the layers"},
+    {"--stats", "FILE.json", "sizes, memory, counts and times"},
+    {"--hash", 0, "print a hash for each stage: layers, map, mask, colour"},
+    WORK_OPTIONS,
+    {"--verbose", 0, "say on standard error what was read and planned"},
+    {"--help", 0, "this text"},
+};
+
+typedef struct job {
+    const char *scene_path;
+    const char *values[OPTION_COUNT];
+    packed_scene packed;
+    gn_settings settings;
+    frame frame;
+    problem why;
+} job;
+
+static void help(void)
+{
+    puts("usage: gnomon render SCENE [options]\n\n"
+         "Render SCENE (a .scene text file with its OBJ meshes, or a .gno file from `gnomon pack`) and write what is\n"
+         "asked for; at least one output is needed. Example:\n\n"
+         "  gnomon render lshape.scene -o lshape.ppm --method dual --map 512\n");
+    options_help(table, OPTION_COUNT, stdout);
+    puts("\nExit status: 0 done, 2 bad usage or input (then nothing is written).");
+}
+
+static int wants_layers(const job *j)
+{
+    return j->values[OUTPUT_DEPTH] || j->values[OUTPUT_SECOND_DEPTH] || j->values[OUTPUT_MAP] || j->values[OUTPUT_HASH];
+}
+
+/* Depths go to files of floats as they are, to others as 16 bits. */
+static image_sample depth_sample(const char *path)
+{
+    return file_has_extension(path, ".pfm") || file_has_extension(path, ".exr") ? IMAGE_F32 : IMAGE_U16;
+}
+
+/* Everything that can be refused before the work starts. */
+static int check_outputs(job *j)
+{
+    static const int depths[] = {OUTPUT_DEPTH, OUTPUT_SECOND_DEPTH, OUTPUT_MAP};
+    const char **values = j->values;
+    int any = values[OUTPUT_IMAGE] || values[OUTPUT_MASK] || values[OUTPUT_STATS] || wants_layers(j);
+    if (!any)
+        return problem_of_usage(&j->why, "nothing to write; expected -o FILE or another output (gnomon render --help)");
+    if (values[OUTPUT_IMAGE] && image_can_write(values[OUTPUT_IMAGE], 3, IMAGE_U8, &j->why))
+        return -1;
+    if (values[OUTPUT_MASK] && image_can_write(values[OUTPUT_MASK], 1, IMAGE_U8, &j->why))
+        return -1;
+    for (int i = 0; i < 3; i++) {
+        const char *path = values[depths[i]];
+        if (path && image_can_write(path, 1, depth_sample(path), &j->why))
+            return -1;
+    }
+    return values[OUTPUT_STATS] ? file_can_write(values[OUTPUT_STATS], &j->why) : 0;
+}
+
+static void say_what_was_read(const job *j)
+{
+    const packed_scene *p = &j->packed;
+    const gn_plan *plan = &j->frame.plan;
+    fprintf(stderr, "%s: %" PRIu64 " triangles, %" PRIu64 " vertices; a world unit is 2^%d", j->scene_path,
+            packed_triangle_count(p), packed_vertex_count(p), p->scale);
+    if (p->largest_rounding >= 0)
+        fprintf(stderr, ", largest rounding of a vertex %.3g world units", p->largest_rounding);
+    fprintf(stderr, "\nvirtual surface %s, layers %s, cull %s; %zu bytes, of them %zu for the map\n",
+            render_surface_name(j->settings.surface), render_layers_name(plan->layers), render_cull_name(plan->cull),
+            plan->bytes, plan->map_bytes);
+}
+
+/* ---- outputs --------------------------------------------------------------------------------------------------- */
+
+static int write_depths(job *j, const char *path, const gn_depth *depths)
+{
+    image im = image_make(j->settings.map_width, j->settings.map_height, 1, depth_sample(path));
+    size_t count = image_sample_count(&im);
+    for (size_t i = 0; i < count; i++)
+        if (im.sample == IMAGE_F32)
+            ((float *)im.samples)[i] = (float)ldexp(depths[i], -GN_DEPTH_BITS);
+        else
+            ((uint16_t *)im.samples)[i] = (uint16_t)(depths[i] >> (GN_DEPTH_BITS - 16));
+    int result = image_write(&im, path, &j->why);
+    image_free(&im);
+    return result;
+}
+
+static int write_pixels(job *j, const char *path, uint8_t *pixels, uint32_t channels)
+{
+    image im = {j->settings.width, j->settings.height, channels, IMAGE_U8, pixels};
+    return image_write(&im, path, &j->why);
+}
+
+static void write_statistics(json *j, const frame *f)
+{
+    gn_statistics s;
+    gn_get_statistics(f->context, &s);
+    json_open(j, "counts");
+    json_integer(j, "light_triangles", (int64_t)s.light_triangles);
+    json_integer(j, "light_texels", (int64_t)s.light_texels);
+    json_integer(j, "camera_triangles", (int64_t)s.camera_triangles);
+    json_integer(j, "camera_fragments", (int64_t)s.camera_fragments);
+    json_integer(j, "pixels_shaded", (int64_t)s.pixels_shaded);
+    json_integer(j, "pixels_tested", (int64_t)s.pixels_tested);
+    json_close(j);
+}
+
+static void write_plan(json *j, const gn_settings *s, const gn_plan *plan)
+{
+    json_open(j, "settings");
+    json_integer(j, "width", s->width);
+    json_integer(j, "height", s->height);
+    json_integer(j, "map_width", s->map_width);
+    json_integer(j, "map_height", s->map_height);
+    json_integer(j, "depth_bits", GN_DEPTH_BITS);
+    json_string(j, "virtual_surface", render_surface_name(s->surface));
+    json_string(j, "layers", render_layers_name(plan->layers));
+    json_string(j, "cull", render_cull_name(plan->cull));
+    json_integer(j, "workers", s->workers);
+    json_integer(j, "region_width", plan->region_width);
+    json_integer(j, "region_height", plan->region_height);
+    json_integer(j, "map_rows", plan->map_rows);
+    json_close(j);
+    json_open(j, "bytes");
+    json_integer(j, "all", (int64_t)plan->bytes);
+    json_integer(j, "map", (int64_t)plan->map_bytes);
+    json_integer(j, "light_pass", (int64_t)plan->light_bytes);
+    json_integer(j, "camera_pass", (int64_t)plan->camera_bytes);
+    json_close(j);
+}
+
+static void write_hashes(json *j, const frame *f)
+{
+    json_open(j, "hashes");
+    json_hash(j, "layers", frame_hash_layers(f));
+    json_hash(j, "map", frame_hash_map(f));
+    json_hash(j, "mask", frame_hash_mask(f));
+    json_hash(j, "colour", frame_hash_colour(f));
+    json_close(j);
+}
+
+static int write_stats_file(job *j)
+{
+    file_output output;
+    if (file_output_open(&output, j->values[OUTPUT_STATS], &j->why))
+        return -1;
+    json w = {.stream = output.stream};
+    json_open(&w, 0);
+    json_string(&w, "scene", j->scene_path);
+    json_string(&w, "version", GN_VERSION);
+    json_integer(&w, "bits_version", GN_BITS_VERSION);
+    json_integer(&w, "triangles", j->frame.plan.triangles);
+    json_integer(&w, "vertices", j->frame.plan.vertices);
+    json_integer(&w, "scale_exponent", j->packed.scale);
+    if (j->packed.largest_rounding >= 0)
+        json_number(&w, "largest_rounding_world_units", j->packed.largest_rounding);
+    write_plan(&w, &j->settings, &j->frame.plan);
+    write_statistics(&w, &j->frame);
+    if (j->values[OUTPUT_HASH])
+        write_hashes(&w, &j->frame);
+    json_open(&w, "milliseconds");
+    json_number(&w, "light_pass", 1e3 * j->frame.light_seconds);
+    json_number(&w, "camera_pass", 1e3 * j->frame.camera_seconds);
+    json_close(&w);
+    json_close(&w);
+    return file_output_finish(&output, &j->why);
+}
+
+static void print_hashes(const frame *f)
+{
+    printf("layers %016" PRIx64 "\n", frame_hash_layers(f));
+    printf("map %016" PRIx64 "\n", frame_hash_map(f));
+    printf("mask %016" PRIx64 "\n", frame_hash_mask(f));
+    printf("colour %016" PRIx64 "\n", frame_hash_colour(f));
+}
+
+static int write_outputs(job *j)
+{
+    const char **values = j->values;
+    frame *f = &j->frame;
+    if (values[OUTPUT_DEPTH] && write_depths(j, values[OUTPUT_DEPTH], f->layers[0]))
+        return -1;
+    if (values[OUTPUT_SECOND_DEPTH] && write_depths(j, values[OUTPUT_SECOND_DEPTH], f->layers[1]))
+        return -1;
+    if (values[OUTPUT_MAP] && write_depths(j, values[OUTPUT_MAP], f->map))
+        return -1;
+    if (values[OUTPUT_MASK] && write_pixels(j, values[OUTPUT_MASK], f->mask, 1))
+        return -1;
+    if (values[OUTPUT_IMAGE] && write_pixels(j, values[OUTPUT_IMAGE], f->colour, 3))
+        return -1;
+    if (values[OUTPUT_STATS] && write_stats_file(j))
+        return -1;
+    if (values[OUTPUT_HASH])
+        print_hashes(f);
+    return 0;
+}
+
+/* ---- the command ----------------------------------------------------------------------------------------------- */
+
+static int render(job *j)
+{
+    if (packed_read(&j->packed, j->scene_path, j->values[VERBOSE] != 0, &j->why) ||
+        render_options_read(&j->settings, &j->packed, j->values, &j->why) ||
+        work_options_read(&j->settings, j->values + WORK, &j->why))
+        return -1;
+    j->settings.mask = j->values[OUTPUT_MASK] || j->values[OUTPUT_HASH];
+    j->settings.format = j->values[OUTPUT_IMAGE] || j->values[OUTPUT_HASH] ? GN_RGB888 : GN_NO_COLOUR;
+    if (frame_open(&j->frame, &j->packed.scene, &j->settings, wants_layers(j), &j->why))
+        return -1;
+    if (j->values[VERBOSE])
+        say_what_was_read(j);
+    if (j->values[OUTPUT_SECOND_DEPTH] && j->frame.layer_count < 2)
+        return problem_of_usage(&j->why,
+                                "--second-depth, but the method keeps one layer; expected a method with two layers");
+    if (frame_light_pass(&j->frame, &j->packed.light, &j->why) ||
+        frame_camera_pass(&j->frame, &j->packed.camera, &j->why))
+        return -1;
+    return write_outputs(j);
+}
+
+int command_render(int argc, char **argv)
+{
+    job j = {.scene_path = 0};
+    command_line line;
+    int result = options_parse(table, OPTION_COUNT, argc, argv, j.values, &line, &j.why);
+    if (!result && j.values[HELP]) {
+        help();
+        return EXIT_DONE;
+    }
+    if (!result && line.place_count != 1)
+        result = problem_of_usage(&j.why, "%d scenes; expected one (gnomon render --help)", line.place_count);
+    if (!result) {
+        j.scene_path = line.places[0];
+        result = check_outputs(&j) || render(&j) ? -1 : 0;
+    }
+    if (result)
+        fprintf(stderr, "%s\n", j.why.text);
+    frame_close(&j.frame);
+    packed_free(&j.packed);
+    return result ? EXIT_BAD_INPUT : EXIT_DONE;
+}

@@ -1,0 +1,44 @@
+/* One frame: a context of the core, its memory, worker threads, and the whole image and map put together from regions.
+ *
+ * Regions are independent jobs; `workers` threads take them one after the other from a queue. The result is the same
+ * for any number of workers.
+ */
+#ifndef FRAME_H
+#define FRAME_H
+
+#include "gnomon.h"
+#include "problem.h"
+#include "stage_hash.h"
+
+typedef struct frame {
+    gn_settings settings;
+    gn_plan plan;
+    gn_context *context;
+    void *memory;
+    uint8_t *colour; /* width x height x 3, rows from the top; 0 with GN_NO_COLOUR */
+    uint8_t *mask;   /* width x height; 0 unless settings.mask */
+    int keep_layers; /* 1: fill layers[] and map while the light pass runs */
+    int layer_count;
+    gn_depth *layers[2], *map;              /* map_width x map_height */
+    double light_seconds, camera_seconds;   /* of the latest passes */
+    uint8_t **worker_colour, **worker_mask; /* a region each, where regions are narrower than the image */
+} frame;
+
+/* Plan and allocate. scene must outlive the frame. frame_close() it, also after an error. 0, or -1 and the problem. */
+int frame_open(frame *f, const gn_scene *scene, const gn_settings *settings, int keep_layers, problem *why);
+
+int frame_light_pass(frame *f, const gn_light *light, problem *why);
+int frame_camera_pass(frame *f, const gn_camera *camera, problem *why);
+
+void frame_close(frame *f);
+
+/* Hashes of the stages (host/stage_hash.h); layers and map need keep_layers, the others colour and mask. */
+stage_hash frame_hash_layers(const frame *f);
+stage_hash frame_hash_map(const frame *f);
+stage_hash frame_hash_mask(const frame *f);
+stage_hash frame_hash_colour(const frame *f);
+
+/* Seconds on a clock that only runs forward. */
+double frame_clock(void);
+
+#endif

@@ -1,0 +1,43 @@
+/* The .gno file: a packed scene as one block of little-endian bytes, for the simulator and for firmware that reads
+ * scenes at run time. Everything is checked when it is read.
+ *
+ *     offset  bytes
+ *          0      4  "GNOM"
+ *          4      4  version: 1
+ *          8      4  bytes of the whole file
+ *         12      4  CRC-32 (IEEE 802.3) of everything from byte 16 on
+ *         16      8  image width, image height, map width, map height: 16 bits each
+ *         24      4  scale (signed): a world unit of the scene file is 2^scale integers
+ *         28      2  ambient, 0 to 65535
+ *         30      4  background r, g, b; 1 if a method follows, 0 if not (then bytes 34 to 43 are 0)
+ *         34      6  cull, layers, surface, unit of the bias, two zero bytes
+ *         40      4  bias
+ *         44     68  camera: projection, three zero bytes; eye, right, up, forward (3 x 32 bits each); tan_half,
+ *                    half_height, near_depth, far_depth (32 bits each)
+ *        112     88  light: kind, three zero bytes; right, up, forward (3 x 32 bits each); box_u, box_v, box_z,
+ *                    box_width, box_height, box_depth; position (3 x 32 bits); tan_half, near_depth, far_depth
+ *        200      8  number of meshes, number of objects
+ *        208         meshes: vertex count, triangle count (32 bits each), bytes an index, closed, two zero bytes; then
+ *                    the vertices (3 x 32 bits each), the indices (3 a triangle), zero bytes up to a multiple of 4
+ *                    objects: number of the mesh (32 bits), r, g, b, a zero byte
+ */
+#ifndef PACK_H
+#define PACK_H
+
+#include "packed.h"
+
+/* Do the bytes start like a .gno file? */
+int pack_is_packed(const uint8_t *bytes, size_t size);
+
+/* Read a .gno file from memory; `file` is for messages. packed_free() it, also after an error. 0, or -1 and the
+ * problem. */
+int pack_parse(packed_scene *packed, const char *file, const uint8_t *bytes, size_t size, problem *why);
+
+/* Write a .gno file. 0, or -1 and the problem. */
+int pack_write(const packed_scene *packed, const char *path, problem *why);
+
+/* Write the scene as a C header: static const arrays and NAME_scene, NAME_camera, NAME_light and NAME_settings, where
+ * NAME is the header's name without its extension, as a C identifier. `source` is for its comment. */
+int pack_write_header(const packed_scene *packed, const char *path, const char *source, problem *why);
+
+#endif

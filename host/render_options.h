@@ -1,0 +1,79 @@
+/* The options that say how shadows are made, shared by render, bench and pack: a named method, or its parts.
+ *
+ * A command's table starts with RENDER_OPTIONS; its own options follow at RENDER_OPTION_COUNT.
+ */
+#ifndef RENDER_OPTIONS_H
+#define RENDER_OPTIONS_H
+
+#include "options.h"
+#include "packed.h"
+
+enum {
+    RENDER_HEAD_METHOD,
+    RENDER_METHOD,
+    RENDER_PARAMETERISE,
+    RENDER_CULL,
+    RENDER_LAYERS,
+    RENDER_SURFACE,
+    RENDER_BIAS,
+    RENDER_RECEIVER,
+    RENDER_RECONSTRUCT,
+    RENDER_HEAD_SIZES,
+    RENDER_MAP,
+    RENDER_SIZE,
+    RENDER_OPTION_COUNT
+};
+
+enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
+
+/* clang-format off */
+#define RENDER_OPTIONS \
+    {0, 0, "How shadows are made:"}, \
+    {"--method", "NAME", \
+     "constant, midpoint, dual, second-depth, mixed or auto: a preset of the\n" \
+     "options below. auto (the default): second-depth where every mesh is\n" \
+     "closed, else mixed"}, \
+    {"--parameterise", "NAME", "uniform: the map covers the light's frustum evenly"}, \
+    {"--cull", "WHICH", \
+     "auto, none, back or front faces of closed meshes in the light pass.\n" \
+     "auto: what the virtual surface asks for"}, \
+    {"--layers", "WHICH", \
+     "auto, first or two: depths kept a texel in the light pass. auto: the\n" \
+     "fewest that give the virtual surface"}, \
+    {"--virtual-surface", "NAME", \
+     "what a pixel is compared with (z1, z2: nearest and second depth, b: bias):\n" \
+     "constant z1 + b; midpoint (z1 + z2) / 2; dual z1 + min((z2 - z1) / 2, b);\n" \
+     "second z2; mixed: second where the nearest mesh is closed, else dual"}, \
+    {"--bias", "B", \
+     "in world units (0.1), in texels (2t) or in units of the light's depth\n" \
+     "range (0.02r); for constant, dual and mixed. Default: 2t"}, \
+    {"--receiver", "NAME", "point: the pixel's own depth is compared"}, \
+    {"--reconstruct", "NAME", "nearest: one texel decides"}, \
+    {0, 0, "Sizes (the scene file has defaults):"}, \
+    {"--map", "N", "the shadow map's size: N or WxH, each from 1 to 4096"}, \
+    {"--size", "WxH", "the image's size, each from 1 to 4096"}
+
+/* How the work is cut: for commands that render. */
+#define WORK_OPTIONS \
+    {0, 0, "How the work is done (never changes the result):"}, \
+    {"--workers", "N", "threads, 1 to 64; default 1"}, \
+    {"--region", "WxH", "pixels the camera pass works on at a time: memory against time"}, \
+    {"--map-rows", "N", "rows of the map the light pass works on at a time: memory against time"}
+/* clang-format on */
+
+/* Settings of a scene and a command line: settings->mask, ->workers and the regions are left as they are by default.
+ * 0, or -1 and the problem. */
+int render_options_read(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why);
+
+/* Workers and regions; values from WORK_HEAD on. 0, or -1 and the problem. */
+int work_options_read(gn_settings *settings, const char *const values[], problem *why);
+
+/* The words of --virtual-surface, --cull and --layers for a setting. */
+const char *render_surface_name(int surface);
+const char *render_cull_name(int cull);
+const char *render_layers_name(int layers);
+
+/* What a status of the core means, for a message. */
+const char *render_status_text(gn_status status);
+
+#endif

@@ -1,0 +1,330 @@
+/* What the core costs, in instructions: each case prints `case NAME` and runs once between mark_begin and mark_end,
+ * where count_plugin.c counts. table.awk takes differences of cases, so that everything but the thing in question
+ * cancels. All cases use the public interface alone. */
+#include "gnomon.h"
+#include "port.h"
+#include "print.h"
+
+void mark_begin(void);
+void mark_end(void);
+
+__attribute__((noinline)) void mark_begin(void)
+{
+    __asm__ volatile("");
+}
+
+__attribute__((noinline)) void mark_end(void)
+{
+    __asm__ volatile("");
+}
+
+static uint64_t memory[128 * 1024];
+static gn_context *context;
+
+static void require(int condition, const char *what)
+{
+    if (!condition) {
+        port_write("failed: ");
+        port_write(what);
+        port_write("\n");
+        port_exit(1);
+    }
+}
+
+static void write_case(const char *name, const char *suffix, uint32_t number)
+{
+    port_write("case ");
+    port_write(name);
+    port_write(suffix);
+    write_decimal(number);
+    port_write("\n");
+}
+
+static const gn_rgb grey = {200, 180, 160};
+
+static gn_scene scene_of(const gn_object *objects, uint32_t count)
+{
+    const gn_scene scene = {objects, count, {10, 20, 30}, 65535 / 5};
+    return scene;
+}
+
+static void prepare(const gn_scene *scene, const gn_settings *settings, gn_plan *plan)
+{
+    require(gn_make_plan(plan, scene, settings) == GN_OK, "plan");
+    require(gn_init(&context, scene, settings, memory, sizeof memory) == GN_OK, "init");
+}
+
+/* ---- light pass ------------------------------------------------------------------------------------------------ */
+
+enum {
+    MAP = 320,
+    TEXEL = 4096,           /* world units */
+    HALF = MAP / 2 * TEXEL, /* the map covers +-HALF in x and y */
+    DEPTH = 1 << 20,        /* and +-DEPTH in z; the light looks along -z */
+    QUADS = 8
+};
+
+static void light_along_minus_z(gn_light *light)
+{
+    static const int32_t direction[3] = {0, 0, -1};
+    require(gn_directional_light(light, direction, 0) == GN_OK, "light");
+    light->box_u = light->box_v = -HALF;
+    light->box_width = light->box_height = 2 * HALF;
+    light->box_z = -DEPTH;
+    light->box_depth = 2 * DEPTH;
+}
+
+static gn_settings light_settings(gn_layers layers)
+{
+    gn_settings settings = gn_default_settings(16, 16, MAP);
+    settings.layers = (uint8_t)layers;
+    settings.surface = layers == GN_LAYERS_TWO ? GN_DUAL : GN_CONSTANT;
+    settings.cull = GN_CULL_NONE;
+    settings.bias.unit = GN_BIAS_RANGE;
+    settings.bias.value = 1u << 20;
+    return settings;
+}
+
+static void measure_light_pass(const gn_scene *scene, const gn_settings *settings)
+{
+    gn_plan plan;
+    gn_light light;
+    light_along_minus_z(&light);
+    prepare(scene, settings, &plan);
+    mark_begin();
+    gn_status status = gn_light_pass(context, &light);
+    mark_end();
+    require(status == GN_OK, "light pass");
+}
+
+static const uint16_t quad_indices[][3] = {{0, 1, 2}, {0, 2, 3}};
+static const int32_t wide_quad[4][3] = {
+    {-HALF, -HALF, 0}, {HALF, -HALF, 4000}, {HALF, HALF, 9000}, {-HALF, HALF, 5000}};
+static const int32_t narrow_quad[4][3] = {{-HALF, -HALF, 0}, {0, -HALF, 2000}, {0, HALF, 7000}, {-HALF, HALF, 5000}};
+static const gn_mesh wide_mesh = {wide_quad, quad_indices, 4, 2, sizeof(uint16_t), 0};
+static const gn_mesh narrow_mesh = {narrow_quad, quad_indices, 4, 2, sizeof(uint16_t), 0};
+
+/* Quads over all or half of the map's columns, in front of or behind one another: every texel of the last ones is
+ * nearer than all before (pass) or farther (fail). */
+static void measure_texels(const char *name, const gn_mesh *mesh, gn_layers layers, int pass)
+{
+    static gn_model models[QUADS];
+    static gn_object objects[QUADS];
+    for (int i = 0; i < QUADS; i++) {
+        gn_model_identity(&models[i]);
+        require(gn_model_translate(&models[i], 0, 0, (pass ? 50000 : -50000) * (i - QUADS / 2)) == GN_OK, "model");
+        objects[i].mesh = mesh;
+        objects[i].model = &models[i];
+        objects[i].colour = grey;
+    }
+    gn_settings settings = light_settings(layers);
+    for (uint32_t count = QUADS / 2; count <= QUADS; count += QUADS / 2) {
+        gn_scene scene = scene_of(objects, count);
+        write_case(name, pass ? "-pass-" : "-fail-", count);
+        measure_light_pass(&scene, &settings);
+    }
+}
+
+/* The map alone: clear and resolve, by its size. The one triangle is too small for any texel. */
+static void measure_map(const char *name, gn_layers layers)
+{
+    static const int32_t speck[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    static const gn_mesh mesh = {speck, quad_indices, 3, 1, sizeof(uint16_t), 0};
+    static const gn_object object = {&mesh, 0, {0, 0, 0}};
+    gn_scene scene = scene_of(&object, 1);
+    gn_settings settings = light_settings(layers);
+    for (uint16_t rows = MAP / 2; rows <= MAP; rows = (uint16_t)(rows + MAP / 2)) {
+        settings.map_height = rows;
+        write_case(name, "-", rows);
+        measure_light_pass(&scene, &settings);
+    }
+}
+
+/* Small triangles: right-angled, legs of 4 texels (8 texels of area), turned by sixteenths of a circle, at random
+ * places within a texel, one in each cell of a grid. Counter-clockwise as the light sees them. */
+enum { TRIANGLES = 128, GRID_COLUMNS = 16, CELL = MAP / GRID_COLUMNS, VERTICES = 3 * TRIANGLES };
+
+static int32_t small_vertices[2 * VERTICES][3];
+static uint16_t small_indices[2][TRIANGLES][3]; /* front faces, back faces */
+
+static uint32_t random_number(void)
+{
+    static uint32_t state = 12345;
+    state = state * 1664525u + 1013904223u;
+    return state >> 8;
+}
+
+/* floor(value x 4 texels) of a Q2.30 value. */
+static int32_t leg(gn_q2_30 value)
+{
+    return value / ((1 << 30) / (4 * TEXEL));
+}
+
+static void make_small_triangles(void)
+{
+    for (uint16_t t = 0; t < TRIANGLES; t++) {
+        gn_angle angle = (gn_angle)t << 28;
+        int32_t dx = leg(gn_cosine(angle)), dy = leg(gn_sine(angle));
+        int32_t x = (t % GRID_COLUMNS * CELL + CELL / 2) * TEXEL - HALF + (int32_t)(random_number() % TEXEL);
+        int32_t y = (t / GRID_COLUMNS * CELL + CELL / 2) * TEXEL - HALF + (int32_t)(random_number() % TEXEL);
+        const int32_t corners[3][3] = {{x, y, 0}, {x + dx, y + dy, 3000}, {x - dy, y + dx, -2000}};
+        for (int corner = 0; corner < 3; corner++) {
+            uint16_t index = (uint16_t)(3 * t + corner);
+            small_indices[0][t][corner] = index;
+            small_indices[1][t][2 - corner] = index;
+            for (int axis = 0; axis < 3; axis++)
+                small_vertices[index][axis] = small_vertices[VERTICES + index][axis] = corners[corner][axis];
+        }
+    }
+}
+
+static gn_mesh small_mesh(const void *indices, uint32_t vertex_count, uint32_t triangle_count)
+{
+    const gn_mesh mesh = {
+        (const int32_t(*)[3])small_vertices, indices, vertex_count, triangle_count, sizeof(uint16_t), 0};
+    return mesh;
+}
+
+/* The same vertices, half or all of the triangles. */
+static void measure_small_triangles(const char *name, gn_layers layers, int back_faces)
+{
+    gn_settings settings = light_settings(layers);
+    gn_mesh mesh = small_mesh(small_indices[back_faces], VERTICES, 0);
+    gn_object object = {&mesh, 0, {0, 0, 0}};
+    if (back_faces) {
+        mesh.closed = 1;
+        settings.cull = GN_CULL_BACK;
+    }
+    for (uint32_t count = TRIANGLES / 2; count <= TRIANGLES; count += TRIANGLES / 2) {
+        mesh.triangle_count = count;
+        gn_scene scene = scene_of(&object, 1);
+        write_case(name, "-", count);
+        measure_light_pass(&scene, &settings);
+    }
+}
+
+/* The same triangles, some or twice as many vertices. */
+static void measure_vertices(void)
+{
+    gn_settings settings = light_settings(GN_LAYERS_FIRST);
+    for (uint32_t count = VERTICES; count <= 2 * VERTICES; count += VERTICES) {
+        gn_mesh mesh = small_mesh(small_indices[0], count, TRIANGLES);
+        gn_object object = {&mesh, 0, {0, 0, 0}};
+        gn_scene scene = scene_of(&object, 1);
+        write_case("vertices", "-", count);
+        measure_light_pass(&scene, &settings);
+    }
+}
+
+/* ---- camera pass ----------------------------------------------------------------------------------------------- */
+
+/* A tilted receiver that overfills the image, and behind the camera an occluder that shadows about its left half. */
+static const int32_t receiver[4][3] = {
+    {-13000, -10000, -18500}, {13000, -10000, -21500}, {13000, 10000, -20500}, {-13000, 10000, -17500}};
+static const int32_t occluder[4][3] = {
+    {-20500, -3000, 10000}, {-7500, -3000, 10000}, {-7500, 18000, 10000}, {-20500, 18000, 10000}};
+static const gn_mesh receiver_mesh = {receiver, quad_indices, 4, 2, sizeof(uint16_t), 0};
+static const gn_mesh occluder_mesh = {occluder, quad_indices, 4, 2, sizeof(uint16_t), 0};
+static const gn_object room[] = {{&receiver_mesh, 0, {200, 180, 160}}, {&occluder_mesh, 0, {90, 90, 90}}};
+
+typedef struct view {
+    const char *name;
+    int orthographic, spot;
+    gn_format format;
+} view;
+
+static const view views[] = {
+    {"perspective-directional-rgb888", 0, 0, GN_RGB888}, {"perspective-directional-rgb565", 0, 0, GN_RGB565},
+    {"perspective-spot-rgb888", 0, 1, GN_RGB888},        {"orthographic-directional-rgb888", 1, 0, GN_RGB888},
+    {"orthographic-spot-rgb888", 1, 1, GN_RGB888},
+};
+
+static void set_up_view(const view *v, const gn_scene *scene, gn_camera *camera, gn_light *light)
+{
+    static const int32_t eye[3] = {0, 0, 0}, ahead[3] = {0, 0, -20000}, up[3] = {0, 1, 0};
+    static const int32_t sun[3] = {1, -1, -4}, lamp[3] = {-10000, 10000, 20000};
+    gn_status status = gn_look_at(camera, eye, ahead, up);
+    require(status == GN_OK, "look at");
+    status = v->orthographic ? gn_orthographic(camera, 7000, 1000, 40000)
+                             : gn_perspective(camera, GN_DEGREES(38), 1000, 40000);
+    require(status == GN_OK, "camera");
+    if (v->spot) {
+        status = gn_spot_light(light, lamp, ahead, 0, GN_DEGREES(80), 5000, 80000);
+    } else {
+        status = gn_directional_light(light, sun, 0);
+        require(status == GN_OK && gn_fit_light(light, scene) == GN_OK, "sun");
+    }
+    require(status == GN_OK, "light");
+}
+
+static uint32_t lit, shadowed, empty;
+
+static int count_mask(void *user, const gn_pixels *p)
+{
+    (void)user;
+    for (uint32_t i = 0; i < (uint32_t)p->width * p->height; i++) {
+        lit += p->mask[i] == 254;
+        shadowed += p->mask[i] == 0;
+        empty += p->mask[i] == 255;
+    }
+    return 0;
+}
+
+static int discard(void *user, const gn_pixels *p)
+{
+    (void)user;
+    (void)p;
+    return 0;
+}
+
+static void measure_pixels(const view *v)
+{
+    gn_scene scene = scene_of(room, 2);
+    gn_plan plan;
+    gn_camera camera;
+    gn_light light;
+    set_up_view(v, &scene, &camera, &light);
+    for (uint16_t width = 160; width <= 320; width = (uint16_t)(width + 160)) {
+        gn_settings settings = gn_default_settings(width, (uint16_t)(width / 4 * 3), 128);
+        settings.surface = GN_CONSTANT;
+        settings.bias.unit = GN_BIAS_TEXELS;
+        settings.bias.value = 2u << 16;
+        settings.format = (uint8_t)v->format;
+
+        settings.mask = 1;
+        prepare(&scene, &settings, &plan);
+        lit = shadowed = empty = 0;
+        require(gn_light_pass(context, &light) == GN_OK, "light pass");
+        require(gn_camera_pass(context, &camera, count_mask, 0) == GN_OK, "camera pass");
+        require(lit > shadowed / 4 && shadowed > lit / 4 && empty == 0, "a full view with light and shadow");
+
+        settings.mask = 0;
+        prepare(&scene, &settings, &plan);
+        require(gn_light_pass(context, &light) == GN_OK, "light pass");
+        write_case(v->name, "-", width);
+        mark_begin();
+        gn_status status = gn_camera_pass(context, &camera, discard, 0);
+        mark_end();
+        require(status == GN_OK, "camera pass");
+    }
+}
+
+int main(void)
+{
+    for (int pass = 1; pass >= 0; pass--) {
+        measure_texels("one-wide", &wide_mesh, GN_LAYERS_FIRST, pass);
+        measure_texels("one-narrow", &narrow_mesh, GN_LAYERS_FIRST, pass);
+        measure_texels("two-wide", &wide_mesh, GN_LAYERS_TWO, pass);
+        measure_texels("two-narrow", &narrow_mesh, GN_LAYERS_TWO, pass);
+    }
+    measure_map("one-map", GN_LAYERS_FIRST);
+    measure_map("two-map", GN_LAYERS_TWO);
+    make_small_triangles();
+    measure_small_triangles("one-small", GN_LAYERS_FIRST, 0);
+    measure_small_triangles("two-small", GN_LAYERS_TWO, 0);
+    measure_small_triangles("rejected", GN_LAYERS_FIRST, 1);
+    measure_vertices();
+    for (unsigned i = 0; i < sizeof views / sizeof *views; i++)
+        measure_pixels(&views[i]);
+    return 0;
+}

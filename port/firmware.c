@@ -1,0 +1,335 @@
+/* The golden firmware: renders every golden scene by several methods and prints one hash a stage, so that compilers,
+ * word sizes and byte orders can be compared. The scenes are packed once, on the build host, and lie in flash.
+ *
+ *     hash SCENE METHOD STAGE HASH          stages: layers, map, mask, colour; axes: cameras and lights set up here
+ *     cost SCENE METHOD light N camera N    instructions, where the port counts them
+ *     memory plan N stack N                 bytes: of the largest context, and of stack at its deepest
+ *
+ * Each method runs twice, with the plan's regions and with small ones of our own: equal hashes are required. Exit
+ * status 0: every stage ran, every method made light and shadow. */
+#include "gnomon.h"
+#include "port.h"
+#include "print.h"
+#include "stage_hash.h"
+
+#include "fence.h"
+#include "lshape.h"
+#include "pins.h"
+#include "pipes.h"
+#include "table.h"
+#include "torus2.h"
+
+enum { WIDTH = 160, HEIGHT = 120, MAP = 128 };
+
+typedef struct golden_scene {
+    const char *name;
+    const gn_scene *scene;
+    const gn_camera *camera;
+    const gn_light *light;
+} golden_scene;
+
+static const golden_scene scenes[] = {
+    {"lshape", &lshape_scene, &lshape_camera, &lshape_light}, {"torus2", &torus2_scene, &torus2_camera, &torus2_light},
+    {"table", &table_scene, &table_camera, &table_light},     {"pipes", &pipes_scene, &pipes_camera, &pipes_light},
+    {"pins", &pins_scene, &pins_camera, &pins_light},         {"fence", &fence_scene, &fence_camera, &fence_light},
+};
+
+typedef struct method {
+    const char *name;
+    gn_surface surface;
+    gn_cull cull;
+    gn_layers layers;
+    gn_format format;
+    gn_bias bias;
+} method;
+
+/* Biases: two texels, a fiftieth of the light's depth range. */
+enum { TWO_TEXELS = 2 << 16, FIFTIETH = 0xffffffffu / 50 };
+
+static const method methods[] = {
+    {"constant", GN_CONSTANT, GN_CULL_NONE, GN_LAYERS_FIRST, GN_RGB888, {GN_BIAS_RANGE, FIFTIETH}},
+    {"midpoint", GN_MIDPOINT, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB565, {GN_BIAS_TEXELS, 0}},
+    {"dual", GN_DUAL, GN_CULL_BACK, GN_LAYERS_TWO, GN_RGB888, {GN_BIAS_TEXELS, TWO_TEXELS}},
+    {"second-front", GN_SECOND, GN_CULL_FRONT, GN_LAYERS_FIRST, GN_RGB888, {GN_BIAS_TEXELS, 0}},
+    {"second-two", GN_SECOND, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB565, {GN_BIAS_TEXELS, 0}},
+    {"mixed", GN_MIXED, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB888, {GN_BIAS_TEXELS, TWO_TEXELS}},
+};
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static uint64_t memory[48 * 1024];
+
+/* Whole planes, put together from regions, so that hashes do not depend on how the work was cut. */
+static gn_depth layers[2][MAP * MAP];
+static gn_depth map[MAP * MAP];
+static uint8_t mask[WIDTH * HEIGHT];
+static uint16_t colour[WIDTH * HEIGHT][3]; /* r, g, b; or one RGB565 value and two zeros */
+
+enum { LAYERS_STAGE, MAP_STAGE, MASK_STAGE, COLOUR_STAGE, STAGES };
+static const char *const stage_names[STAGES] = {"layers", "map", "mask", "colour"};
+
+typedef struct result {
+    stage_hash stages[STAGES];
+    uint32_t light_instructions, camera_instructions;
+    size_t plan_bytes;
+    int light_and_shadow;
+} result;
+
+static void write_field(const char *text)
+{
+    port_write(text);
+    port_write(" ");
+}
+
+static void fail(const char *what, const golden_scene *golden, const method *by, int status)
+{
+    write_field("error");
+    write_field(golden->name);
+    write_field(by->name);
+    write_field(what);
+    write_decimal((uint32_t)-status);
+    port_write("\n");
+    port_exit(1);
+}
+
+/* Copy what gn_layer gives of one region into its place in a whole plane. Planes that do not exist stay zero. */
+static void keep_layer(gn_depth *plane, const gn_context *context, uint32_t layer, uint32_t region)
+{
+    uint32_t first_row, rows, stride;
+    const gn_depth *depths = gn_layer(context, layer, region, 0, &first_row, &rows, &stride);
+    if (!depths)
+        return;
+    for (uint32_t y = 0; y < rows; y++) {
+        for (uint32_t x = 0; x < MAP; x++)
+            plane[(first_row + y) * MAP + x] = depths[y * stride + x];
+    }
+}
+
+static int keep_pixels(void *user, const gn_pixels *p)
+{
+    const gn_format *format = user;
+    const uint8_t *rgb888 = p->colour;
+    const uint16_t *rgb565 = p->colour;
+    uint32_t from = 0;
+    for (uint32_t y = p->y; y < (uint32_t)p->y + p->height; y++) {
+        for (uint32_t x = p->x; x < (uint32_t)p->x + p->width; x++, from++) {
+            uint32_t to = y * WIDTH + x;
+            mask[to] = p->mask[from];
+            if (*format == GN_RGB888) {
+                for (uint32_t channel = 0; channel < 3; channel++)
+                    colour[to][channel] = rgb888[3 * from + channel];
+            } else {
+                colour[to][0] = rgb565[from];
+            }
+        }
+    }
+    return 0;
+}
+
+static stage_hash hash_depths(stage_hash hash, const gn_depth *depths)
+{
+    for (uint32_t i = 0; i < MAP * MAP; i++)
+        hash = GN_DEPTH_BITS == 16 ? stage_hash_u16(hash, (uint16_t)depths[i]) : stage_hash_u32(hash, depths[i]);
+    return hash;
+}
+
+static stage_hash hash_colour(stage_hash hash, gn_format format)
+{
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        if (format == GN_RGB565) {
+            hash = stage_hash_u16(hash, colour[i][0]);
+            continue;
+        }
+        for (uint32_t channel = 0; channel < 3; channel++)
+            hash = stage_hash_u8(hash, (uint8_t)colour[i][channel]);
+    }
+    return hash;
+}
+
+static stage_hash hash_mask(stage_hash hash, int *light_and_shadow)
+{
+    int lit = 0, shadowed = 0;
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        hash = stage_hash_u8(hash, mask[i]);
+        lit |= mask[i] == 254;
+        shadowed |= mask[i] == 0;
+    }
+    *light_and_shadow = lit && shadowed;
+    return hash;
+}
+
+/* The light pass in steps, so that the layers can be seen before they are resolved. */
+static gn_status light_pass(gn_context *context, const gn_plan *plan, const gn_light *light, uint32_t *instructions)
+{
+    uint32_t start = port_instructions();
+    gn_status status = gn_light_begin(context, light);
+    *instructions = port_instructions() - start;
+    for (uint32_t region = 0; status == GN_OK && region < plan->light_regions; region++) {
+        start = port_instructions();
+        status = gn_light_layers(context, region, 0);
+        *instructions += port_instructions() - start;
+        if (status != GN_OK)
+            break;
+        keep_layer(layers[0], context, 0, region);
+        keep_layer(layers[1], context, 1, region);
+        start = port_instructions();
+        status = gn_light_resolve(context, region, 0);
+        *instructions += port_instructions() - start;
+        keep_layer(map, context, 0, region);
+    }
+    return status;
+}
+
+static void render(result *out, const golden_scene *golden, const method *by, int small_regions)
+{
+    gn_settings settings = gn_default_settings(WIDTH, HEIGHT, MAP);
+    gn_plan plan;
+    gn_context *context;
+    gn_format format = by->format;
+    settings.surface = (uint8_t)by->surface;
+    settings.cull = (uint8_t)by->cull;
+    settings.layers = (uint8_t)by->layers;
+    settings.format = (uint8_t)format;
+    settings.bias = by->bias;
+    settings.mask = 1;
+    if (small_regions) {
+        settings.map_rows = 24;
+        settings.region_width = 48;
+        settings.region_height = 16;
+    }
+    for (uint32_t i = 0; i < MAP * MAP; i++)
+        layers[0][i] = layers[1][i] = map[i] = 0;
+
+    gn_status status = gn_make_plan(&plan, golden->scene, &settings);
+    if (status != GN_OK)
+        fail("plan", golden, by, status);
+    status = gn_init(&context, golden->scene, &settings, memory, sizeof memory);
+    if (status != GN_OK)
+        fail("init", golden, by, status);
+    out->plan_bytes = plan.bytes;
+
+    status = light_pass(context, &plan, golden->light, &out->light_instructions);
+    if (status != GN_OK)
+        fail("light", golden, by, status);
+    out->stages[LAYERS_STAGE] = hash_depths(hash_depths(stage_hash_init(), layers[0]), layers[1]);
+    out->stages[MAP_STAGE] = hash_depths(stage_hash_init(), map);
+
+    uint32_t start = port_instructions();
+    status = gn_camera_pass(context, golden->camera, keep_pixels, &format);
+    if (status != GN_OK)
+        fail("camera", golden, by, status);
+    out->camera_instructions = port_instructions() - start;
+    out->stages[MASK_STAGE] = hash_mask(stage_hash_init(), &out->light_and_shadow);
+    out->stages[COLOUR_STAGE] = hash_colour(stage_hash_init(), format);
+}
+
+static void write_hash_line(const char *scene, const char *by, const char *stage, stage_hash hash)
+{
+    char digits[17];
+    write_field("hash");
+    write_field(scene);
+    write_field(by);
+    write_field(stage);
+    stage_hash_text(hash, digits);
+    port_write(digits);
+    port_write("\n");
+}
+
+static void write_cost_line(const char *scene, const char *by, const result *r)
+{
+    write_field("cost");
+    write_field(scene);
+    write_field(by);
+    write_field("light");
+    write_decimal(r->light_instructions);
+    port_write(" camera ");
+    write_decimal(r->camera_instructions);
+    port_write("\n");
+}
+
+/* Not inlined: dozens of copies in one function would want kilobytes of stack. */
+static __attribute__((noinline)) stage_hash hash_number(stage_hash hash, uint32_t value)
+{
+    return stage_hash_u32(hash, value);
+}
+
+static stage_hash hash_vector(stage_hash hash, const int32_t v[3])
+{
+    for (int i = 0; i < 3; i++)
+        hash = hash_number(hash, (uint32_t)v[i]);
+    return hash;
+}
+
+static stage_hash hash_camera(stage_hash hash, const gn_camera *c)
+{
+    hash = hash_vector(hash_vector(hash_vector(hash_vector(hash, c->eye), c->right), c->up), c->forward);
+    return hash_number(hash_number(hash_number(hash, c->tan_half), (uint32_t)c->near_depth), (uint32_t)c->far_depth);
+}
+
+static stage_hash hash_light_axes(stage_hash hash, const gn_light *l)
+{
+    return hash_vector(hash_vector(hash_vector(hash, l->right), l->up), l->forward);
+}
+
+/* Everything that turns angles and directions into cameras, lights and matrices, on a path round the scene. */
+static stage_hash hash_axes(const golden_scene *golden)
+{
+    static const int32_t target[3] = {1000, -2000, 500}, up[3] = {0, 1, 0};
+    stage_hash hash = stage_hash_init();
+    for (uint32_t step = 0; step < 16; step++) {
+        gn_angle angle = step * 0x0fedcba9u;
+        const int32_t eye[3] = {gn_sine(angle) / 64, gn_cosine(angle) / 128 + 3, (int32_t)step * 60000 - 500000};
+        gn_camera camera = {0};
+        gn_light sun = {0}, lamp = {0};
+        gn_model model;
+        gn_model_identity(&model);
+        int status = gn_look_at(&camera, eye, target, up);
+        status |= gn_perspective(&camera, GN_DEGREES(20) + step * 0x04000000u, 1000, 1 << 24);
+        status |= gn_directional_light(&sun, eye, 0);
+        status |= gn_fit_light(&sun, golden->scene);
+        status |= gn_spot_light(&lamp, eye, target, 0, GN_DEGREES(30) + step * 0x03000000u, 500, 1 << 24);
+        status |= gn_model_scale(&model, 65536 / 3, 70000, 65536);
+        status |= gn_model_rotate(&model, eye, angle);
+        status |= gn_model_translate(&model, 5, -7, (int32_t)step);
+        hash = hash_camera(hash_number(hash, (uint32_t)status), &camera);
+        hash = hash_light_axes(hash_light_axes(hash, &sun), &lamp);
+        hash = hash_number(hash_number(hash, lamp.tan_half), model.shift);
+        const int32_t box[6] = {sun.box_u, sun.box_v, sun.box_z, sun.box_width, sun.box_height, sun.box_depth};
+        hash = hash_vector(hash_vector(hash, box), box + 3);
+        for (int row = 0; row < 3; row++)
+            hash = hash_vector(hash, model.m[row]);
+        hash = hash_vector(hash, model.t);
+    }
+    return hash;
+}
+
+int main(void)
+{
+    static result whole, parts;
+    size_t most_bytes = 0;
+    for (size_t s = 0; s < COUNT(scenes); s++) {
+        const golden_scene *golden = &scenes[s];
+        write_hash_line(golden->name, "set-up", "axes", hash_axes(golden));
+        for (size_t m = 0; m < COUNT(methods); m++) {
+            const method *by = &methods[m];
+            render(&whole, golden, by, 0);
+            render(&parts, golden, by, 1);
+            for (int stage = 0; stage < STAGES; stage++) {
+                write_hash_line(golden->name, by->name, stage_names[stage], whole.stages[stage]);
+                if (whole.stages[stage] != parts.stages[stage])
+                    fail("small-regions-differ", golden, by, -stage);
+            }
+            if (!whole.light_and_shadow)
+                fail("no-light-or-no-shadow", golden, by, 0);
+            write_cost_line(golden->name, by->name, &whole);
+            if (whole.plan_bytes > most_bytes)
+                most_bytes = whole.plan_bytes;
+        }
+    }
+    port_write("memory plan ");
+    write_decimal((uint32_t)most_bytes);
+    port_write(" stack ");
+    write_decimal(port_stack_used());
+    port_write("\n");
+    return 0;
+}

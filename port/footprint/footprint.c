@@ -1,0 +1,59 @@
+/* How much memory a typical job takes: 1,000 triangles in flash, a map of 128 x 128, an image of 320 x 240, second
+ * depth. Linked into a RAM of RAM_LIMIT bytes (board.ld), so that running at all proves that it fits. Prints
+ *
+ *     ram plan N statics N stack N whole N      bytes
+ */
+#include "footprint.h"
+#include "gnomon.h"
+#include "port.h"
+#include "print.h"
+
+enum { RAM_LIMIT = 96 * 1024, STACK = 4096, STATICS = 1024 };
+
+static uint64_t memory[(RAM_LIMIT - STACK - STATICS) / sizeof(uint64_t)];
+
+extern uint8_t data_start[], bss_end[]; /* the linker script's */
+
+static uint32_t lit, shadowed;
+
+static int count_mask(void *user, const gn_pixels *p)
+{
+    (void)user;
+    for (uint32_t i = 0; i < (uint32_t)p->width * p->height; i++) {
+        lit += p->mask[i] == 254;
+        shadowed += p->mask[i] == 0;
+    }
+    return 0;
+}
+
+static void write_bytes(const char *name, uint32_t bytes)
+{
+    port_write(name);
+    write_decimal(bytes);
+}
+
+int main(void)
+{
+    gn_settings settings = gn_default_settings(320, 240, 128);
+    gn_plan plan;
+    gn_context *context;
+    settings.mask = 1;
+    if (gn_make_plan(&plan, &footprint_scene, &settings) != GN_OK || plan.triangles != 1000)
+        return 1;
+    if (gn_init(&context, &footprint_scene, &settings, memory, sizeof memory) != GN_OK)
+        return 2;
+    if (gn_light_pass(context, &footprint_light) != GN_OK)
+        return 3;
+    if (gn_camera_pass(context, &footprint_camera, count_mask, 0) != GN_OK || lit == 0 || shadowed == 0)
+        return 4;
+
+    uint32_t statics = (uint32_t)((uintptr_t)bss_end - (uintptr_t)data_start - sizeof memory);
+    uint32_t stack = port_stack_used();
+    uint32_t whole = (uint32_t)plan.bytes + statics + stack;
+    write_bytes("ram plan ", (uint32_t)plan.bytes);
+    write_bytes(" statics ", statics);
+    write_bytes(" stack ", stack);
+    write_bytes(" whole ", whole);
+    port_write("\n");
+    return whole <= RAM_LIMIT ? 0 : 5;
+}

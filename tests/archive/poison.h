@@ -1,0 +1,2 @@
+/* Words that the core may not contain. */
+#pragma GCC poison float double malloc calloc realloc free alloca printf setjmp

@@ -1,0 +1,158 @@
+#!/bin/sh
+# The simulator's command line: exit statuses, help, outputs, refusals; results that do not depend on how work is cut.
+# GNOMON: the simulator; CC: a compiler for the packed header.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+. tests/tap.sh
+
+gnomon=${GNOMON:-build/gnomon}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# status N COMMAND...: the simulator ends with this exit status.
+status() {
+    wanted=$1
+    shift
+    "$gnomon" "$@"
+    got=$?
+    [ $got = "$wanted" ] || { echo "exit status $got, expected $wanted: gnomon $*"; return 1; }
+}
+
+# refuses TEXT ARGUMENT...: exit status 2, a message with this text and "expected", no output file, nothing half written.
+refuses() {
+    text=$1
+    shift
+    status 2 "$@" >"$folder/out" 2>"$folder/err" || { cat "$folder/err"; return 1; }
+    cat "$folder/err"
+    grep -qF -- "$text" "$folder/err" && grep -q expected "$folder/err" && [ ! -s "$folder/out" ] && nothing_left
+}
+
+nothing_left() {
+    left=$(find "$folder" -name 'new*' -o -name '.[0-9]*')
+    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
+}
+
+hash_of() {
+    "$gnomon" render "$@" --hash
+}
+
+# same_hashes A B: both are hashes of four stages, and equal.
+same_hashes() {
+    printf '%s\n' "$1" "$2"
+    [ "$(printf '%s\n' "$1" | grep -cE '^(layers|map|mask|colour) [0-9a-f]{16}$')" = 4 ] && [ "$1" = "$2" ]
+}
+
+for command in render compare pack bench procedural; do
+    check "help_of_${command}_names_its_use_and_status_2" sh -c "'$gnomon' $command --help | grep -q 'usage: gnomon $command' &&
+        '$gnomon' $command --help | grep -q '2 bad usage'"
+    check "${command}_without_arguments_is_bad_usage" status 2 $command
+    check "${command}_refuses_an_unknown_option" refuses "unknown option '--wrong'" $command --wrong
+done
+check "help_lists_the_commands" sh -c "'$gnomon' --help | grep -q procedural"
+check "no_command_is_bad_usage" status 2
+check "an_unknown_command_is_bad_usage" refuses "unknown command 'rendre'" rendre
+check "a_planned_command_is_named_as_such" refuses "not built yet" truth
+
+check "a_procedural_scene_is_written" status 0 procedural lshape -o "$folder/made"
+check "an_unknown_procedural_scene_is_refused" refuses "unknown scene 'none'" procedural none -o "$folder"
+check "a_folder_that_cannot_be_made_is_refused" refuses "cannot be made" procedural lshape -o "$folder/no/where"
+check "procedural_without_folder_is_refused" refuses "no folder" procedural lshape
+
+scene=$folder/made/lshape.scene
+check "all_outputs_are_written" status 0 render "$scene" -o "$folder/a.ppm" --mask "$folder/a.pgm" --depth "$folder/z1.pgm" \
+    --second-depth "$folder/z2.pfm" --map-image "$folder/map.pgm" --stats "$folder/a.json" --method mixed --map 64 --size 80x60
+for file in a.ppm a.pgm z1.pgm z2.pfm map.pgm a.json; do
+    check "${file}_is_there" test -s "$folder/$file"
+done
+check "the_picture_has_its_size" sh -c "head -c 9 '$folder/a.ppm' | tail -n 1 | grep -qx '80 60'"
+check "statistics_name_what_was_chosen" sh -c "grep -q '\"virtual_surface\": \"mixed\"' '$folder/a.json' &&
+    grep -q '\"layers\": \"two\"' '$folder/a.json' && grep -q '\"pixels_tested\": [1-9]' '$folder/a.json' &&
+    grep -q 'largest_rounding_world_units' '$folder/a.json'"
+check "a_mask_equals_itself" status 0 compare "$folder/a.pgm" "$folder/a.pgm"
+check "bench_measures" status 0 bench "$scene" --runs 2 --size 40x30 --map 32 --json "$folder/bench.json"
+check "bench_writes_json" grep -q '"median_ms"' "$folder/bench.json"
+
+for method in constant midpoint dual second-depth mixed auto; do
+    one=$(hash_of "$scene" --method $method --size 100x75 --map 60x44)
+    check "${method}_does_not_depend_on_workers" same_hashes "$one" \
+        "$(hash_of "$scene" --method $method --size 100x75 --map 60x44 --workers 3)"
+    check "${method}_does_not_depend_on_regions" same_hashes "$one" \
+        "$(hash_of "$scene" --method $method --size 100x75 --map 60x44 --region 32x7 --map-rows 5 --workers 2)"
+done
+
+check "a_scene_is_packed" status 0 pack "$scene" -o "$folder/lshape.gno"
+check "a_packed_scene_has_the_same_hashes" same_hashes "$(hash_of "$scene")" "$(hash_of "$folder/lshape.gno")"
+check "a_scene_is_packed_as_c" status 0 pack "$scene" -o "$folder/l-shape.h" --size 32x24 --map 32
+cat >"$folder/use.c" <<'END'
+#include "l-shape.h"
+int main(void)
+{
+    gn_plan plan;
+    return gn_make_plan(&plan, &l_shape_scene, &l_shape_settings) == GN_OK && l_shape_camera.far_depth > 0 &&
+           l_shape_light.box_width > 0 && plan.triangles == 32 && l_shape_settings.width == 32 ? 0 : 1;
+}
+END
+check "packed_c_compiles_without_a_warning" ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror -Icore -I"$folder" \
+    "$folder/use.c" core/*.c -o "$folder/use"
+check "packed_c_holds_the_scene" "$folder/use"
+
+mkdir "$folder/folder.ppm"
+check "two_scenes_are_refused" refuses "2 scenes" render "$scene" "$scene" -o "$folder/new.ppm"
+check "nothing_to_write_is_refused" refuses "nothing to write" render "$scene"
+check "an_option_without_its_value_is_refused" refuses "lacks its value" render "$scene" -o
+check "an_option_given_twice_is_refused" refuses "given twice" render "$scene" --map 8 --map=9 -o "$folder/new.ppm"
+check "an_unknown_method_is_refused" refuses "--method best" render "$scene" --method best -o "$folder/new.ppm"
+for method in slope adaptive silhouette volumes; do
+    check "method_${method}_is_not_built_yet" refuses "not built yet" render "$scene" --method $method -o "$folder/new.ppm"
+done
+check "slope_surface_is_not_built_yet" refuses "not built yet" render "$scene" --virtual-surface slope -o "$folder/new.ppm"
+check "virtual_receivers_are_not_built_yet" refuses "not built yet" render "$scene" --receiver virtual -o "$folder/new.ppm"
+check "pcf_is_not_built_yet" refuses "not built yet" render "$scene" --reconstruct pcf3 -o "$folder/new.ppm"
+check "msf_is_not_built_yet" refuses "not built yet" render "$scene" --parameterise msf+rectilinear -o "$folder/new.ppm"
+check "an_unknown_receiver_is_refused" refuses "expected point" render "$scene" --receiver x -o "$folder/new.ppm"
+check "surface_against_method_is_refused" refuses "contradicts" render "$scene" --method dual --virtual-surface second \
+    -o "$folder/new.ppm"
+check "a_bias_of_second_depth_is_refused" refuses "has no meaning" render "$scene" --method second-depth --bias 1t \
+    -o "$folder/new.ppm"
+check "a_negative_bias_is_refused" refuses "bias '-1t'" render "$scene" --method dual --bias -1t -o "$folder/new.ppm"
+check "constant_with_two_layers_is_refused" refuses "makes no sense" render "$scene" --method constant --layers two \
+    -o "$folder/new.ppm"
+check "dual_with_one_layer_is_refused" refuses "makes no sense" render "$scene" --method dual --layers first -o "$folder/new.ppm"
+check "midpoint_without_front_faces_is_refused" refuses "makes no sense" render "$scene" --method midpoint --cull front \
+    -o "$folder/new.ppm"
+check "mixed_without_back_faces_is_refused" refuses "makes no sense" render "$scene" --method mixed --cull back \
+    -o "$folder/new.ppm"
+check "a_second_layer_that_is_not_kept_is_refused" refuses "keeps one layer" render "$scene" --method constant \
+    --second-depth "$folder/new.pgm"
+check "a_map_of_4097_is_refused" refuses "--map 4097" render "$scene" --map 4097 -o "$folder/new.ppm"
+check "a_size_of_one_number_is_refused" refuses "--size 8" render "$scene" --size 8 -o "$folder/new.ppm"
+check "no_workers_are_refused" refuses "--workers 0" render "$scene" --workers 0 -o "$folder/new.ppm"
+check "65_workers_are_refused" refuses "--workers 65" render "$scene" --workers 65 -o "$folder/new.ppm"
+check "an_unknown_extension_is_refused" refuses "expected .ppm" render "$scene" -o "$folder/new.nonsense"
+check "a_grey_picture_is_refused" refuses "expected .ppm" render "$scene" -o "$folder/new.pgm"
+check "a_missing_folder_is_refused" refuses "cannot be written" render "$scene" -o "$folder/none/new.ppm"
+check "a_scene_that_is_missing_is_refused" refuses "cannot be opened" render "$folder/none.scene" -o "$folder/new.ppm"
+check "a_folder_as_a_scene_is_refused" refuses "is a folder" render "$folder" -o "$folder/new.ppm"
+check "a_folder_as_output_is_refused" refuses "is a folder" render "$scene" -o "$folder/folder.ppm"
+check "pack_to_another_extension_is_refused" refuses "expected .gno or .h" pack "$scene" -o "$folder/new.bin"
+check "zero_runs_are_refused" refuses "--runs 0" bench "$scene" --runs 0
+
+if "$gnomon" render "$scene" -o "$folder/png.png" 2>"$folder/err"; then
+    check "png_is_written_where_openimageio_is_present" test -s "$folder/png.png"
+else
+    check "png_without_openimageio_says_what_to_install" grep -q "install libopenimageio-dev and rebuild" "$folder/err"
+fi
+
+echo old >"$folder/kept.ppm"
+cat >"$folder/broken.scene" <<'END'
+image 8 8
+mapp 8
+END
+check "a_broken_scene_is_refused_with_its_line" refuses "broken.scene:2: unknown directive 'mapp'" render "$folder/broken.scene" \
+    -o "$folder/kept.ppm"
+check "an_older_picture_is_kept" grep -qx old "$folder/kept.ppm"
+check "output_to_a_device_is_written_directly" sh -c "'$gnomon' render '$scene' --size 8x6 --stats /dev/stdout |
+    grep -q '\"width\": 8'"
+check "one_bad_output_stops_the_others" refuses "cannot be written" render "$scene" -o "$folder/new.ppm" \
+    --mask "$folder/none/new.pgm"
+finish

@@ -1,0 +1,85 @@
+/* Any bytes as a packed scene, their size and checksum put right first: no crash,
+ * and the core renders what is accepted. */
+#include "frame.h"
+#include "fuzz.h"
+#include "pack.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void put(uint8_t *at, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        at[i] = (uint8_t)(value >> (8 * i));
+}
+
+static uint32_t crc32_of(const uint8_t *bytes, size_t size)
+{
+    uint32_t crc = 0xffffffff;
+    for (size_t i = 0; i < 8 * size; i++)
+        crc = crc >> 1 ^ (((crc ^ (uint32_t)(bytes[i / 8] >> (i % 8))) & 1) ? 0xedb88320 : 0);
+    return ~crc;
+}
+
+/* Small pictures only, for speed. A refusal is fine, as long as it is one that the core documents for scenes. */
+static void render(packed_scene *packed)
+{
+    frame f;
+    problem why;
+    gn_plan plan;
+    gn_status status = gn_make_plan(&plan, &packed->scene, &packed->settings);
+    if (status != GN_OK && status != GN_UNSUPPORTED)
+        abort();
+    packed->settings.width = packed->settings.height = packed->settings.map_width = packed->settings.map_height = 24;
+    packed->settings.mask = 1;
+    if (status != GN_OK)
+        return;
+    if (frame_open(&f, &packed->scene, &packed->settings, 1, &why) == 0 &&
+        frame_light_pass(&f, &packed->light, &why) == 0)
+        frame_camera_pass(&f, &packed->camera, &why);
+    frame_close(&f);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    packed_scene packed;
+    problem why;
+    uint8_t *copy = calloc(size + 1, 1);
+    memcpy(copy, bytes, size);
+    if (size >= 16) {
+        put(copy + 8, (uint32_t)size);
+        put(copy + 12, crc32_of(copy + 16, size - 16));
+    }
+    if (pack_parse(&packed, "fuzz", copy, size, &why) == 0)
+        render(&packed);
+    packed_free(&packed);
+    free(copy);
+    return 0;
+}
+
+#ifndef GNOMON_LIBFUZZER
+/* A scene of one triangle: an upright view along -z, a light from above. */
+static size_t make_good(uint8_t good[272])
+{
+    static const uint8_t indices[] = {0, 0, 1, 0, 2, 0};
+    memset(good, 0, 272);
+    memcpy(good, "GNOM\1", 5);
+    good[16] = good[18] = good[20] = good[22] = 8;
+    put(good + 60, 1 << 30), put(good + 76, 1 << 30), put(good + 92, 0xc0000000); /* camera: right, up, forward */
+    put(good + 96, 1 << 24), put(good + 104, 1), put(good + 108, 1000);
+    put(good + 116, 1 << 30), put(good + 136, 1 << 30), put(good + 144, 0xc0000000);
+    for (int i = 0; i < 3; i++) /* the box: its corner and its size */
+        put(good + 152 + 4 * i, 0xfffffc00), put(good + 164 + 4 * i, 0x800);
+    put(good + 200, 1), put(good + 204, 1), put(good + 208, 3), put(good + 212, 1), put(good + 216, 2);
+    put(good + 232, 100), put(good + 248, 100);
+    memcpy(good + 256, indices, sizeof indices);
+    return 272;
+}
+
+int main(int argc, char **argv)
+{
+    uint8_t good[272];
+    size_t size = make_good(good);
+    return fuzz_run("changed_packed_scenes_never_crash_the_reader", good, size, tap_cases(argc, argv, 20000));
+}
+#endif
