@@ -20,6 +20,9 @@ say = $(if $(filter 0,$(V)),@echo "  $(1)  $@")
 # ---- what is compiled, and how -------------------------------------------------------------------------------------
 
 CORE := $(wildcard core/*.c)
+# No inner loops: compiled for size where flash counts.
+SETUP_SOURCES := $(patsubst %,core/gn_%.c,bias bins camera_pass clip lambert matrix plan scaled shading transform \
+	trigonometry view)
 HOST := $(wildcard host/*.c)
 EMBEDDED_TARGETS :=
 HOSTED_TARGETS :=
@@ -38,7 +41,7 @@ DEPTHS := 16 32
 
 # Builds for this machine: the plain library, the simulator, and the two that look for mistakes.
 library_FLAGS := -O2
-host_FLAGS := -O3 $(HOST_ARCH) -DGN_STATISTICS=1
+host_FLAGS := -O3 $(HOST_ARCH) -DGN_STATISTICS=1 -DGN_COLOUR_CACHE=4096
 checked_FLAGS := -O2 -g -DGN_CHECKED=1 -DGN_STATISTICS=1
 sanitized_FLAGS := -O1 -g -DGN_STATISTICS=1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 
@@ -53,17 +56,17 @@ endif
 # ---- objects -------------------------------------------------------------------------------------------------------
 
 # Everything is compiled anew when a flag changes, for instance because OpenImageIO was installed.
-ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(WERROR)
+ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS)
 $(BUILD)/flags: always
 	@mkdir -p $(@D)
 	@echo '$(ALL_FLAGS)' | cmp -s - $@ || echo '$(ALL_FLAGS)' >$@
 
-# $(call compile,FOLDER,COMPILER,FLAGS): build/objects/FOLDER/core/x.o from core/x.c, and so on.
+# $(call compile,FOLDER,COMPILER,FLAGS,SETUP_FLAGS): build/objects/FOLDER/core/x.o from core/x.c, and so on.
 define compile
 $(BUILD)/objects/$(1)/%.o: %.c $(BUILD)/flags
 	$$(call say,$(1))
 	@mkdir -p $$(@D)
-	$(quiet)$(2) $$(FLAGS_$$(firstword $$(subst /, ,$$<))) $(3) $(WERROR) $(CFLAGS) -MMD -MP -c $$< -o $$@
+	$(quiet)$(2) $$(FLAGS_$$(firstword $$(subst /, ,$$<))) $(3) $$(if $$(filter $$<,$$(SETUP_SOURCES)),$(4)) $(WERROR) $(CFLAGS) -MMD -MP -c $$< -o $$@
 endef
 
 # $(call objects,FOLDER,SOURCES)
@@ -145,7 +148,7 @@ $(BUILD)/golden/footprint.h: $(BUILD)/gnomon port/footprint/scene.awk
 # -fcallgraph-info: what a function needs of the stack, and what it calls.
 $(foreach t,$(EMBEDDED_TARGETS),$(foreach d,$(DEPTHS),\
 	$(eval $(call compile,$(t)-$(d),$($(t)_TOOL)gcc,-O2 -ffreestanding $($(t)_FLAGS) -DGN_DEPTH_BITS=$(d) \
-		-ffunction-sections -fdata-sections -fcallgraph-info=su))))
+		-ffunction-sections -fdata-sections -fcallgraph-info=su,-Os))))
 $(foreach t,$(HOSTED_TARGETS),$(foreach d,$(DEPTHS),\
 	$(eval $(call compile,$(t)-$(d),$($(t)_CC),$($(t)_FLAGS) -DGN_DEPTH_BITS=$(d)))))
 
