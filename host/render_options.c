@@ -53,8 +53,11 @@ static void use_method(gn_settings *settings, const packed_scene *packed, int me
     settings->layers = GN_LAYERS_AUTO;
     settings->bias = (gn_bias){GN_BIAS_TEXELS, 2 << 16};
     settings->surface = (uint8_t)method;
-    if (method == METHOD_AUTO)
+    if (method == METHOD_AUTO) {
+        /* Mixed bounds its bias by half the way to the next surface, so it can afford one that also serves grazing light. */
         settings->surface = all_meshes_are_closed(packed) ? GN_SECOND : GN_MIXED;
+        settings->bias.value = 8 << 16;
+    }
 }
 
 static int read_method(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why)
