@@ -11,7 +11,7 @@
  * Memory: map, 12 bytes a vertex, the second layer of one region a worker. */
 #include "gn_clip.h"
 #include "gn_context.h"
-#include "gn_vector.h"
+#include "gn_tally.h"
 
 #define GN_FARTHEST ((gn_depth)0xffffffffu)
 #define GN_DEPTH_SHIFT (32 - GN_DEPTH_BITS)
@@ -31,6 +31,7 @@ typedef struct target {
 #if GN_VECTOR
     gn_u32x16 lanes; /* the plane's step to each of 16 texels */
 #endif
+    GN_TALLY(gn_tally *tally;)
 } target;
 
 /* The depths are stepped in 32 bits and cut to the stored width: 16-bit layers are the upper half of 32-bit ones. */
@@ -152,6 +153,7 @@ GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t 
     GN_INLINE void name(const void *state, int32_t row, int32_t left, int32_t right)                                   \
     {                                                                                                                  \
         const target *t = state;                                                                                       \
+        GN_TALLY(t->tally->centres += (uint32_t)(right - left);)                                                       \
         insert_span(t, row * t->stride + left, right - left, start_depth(t, row, left), how);                          \
     }
 SPAN(span_first, FIRST)
@@ -164,6 +166,7 @@ SPAN(span_marked, MARKED)
     GN_INLINE void name(const void *state, int32_t row, int32_t column, gn_i32x16 outside)                             \
     {                                                                                                                  \
         const target *t = state;                                                                                       \
+        GN_TALLY(t->tally->lanes_16 -= outside >= 0;)                                                                  \
         gn_depthx16 far = cut_lanes((gn_u32x16)(outside < 0));                                                         \
         insert_lanes(t, row * t->stride + column, t->lanes + start_depth(t, row, column), far, how);                   \
     }
@@ -179,6 +182,7 @@ GN_INLINE void span_any(const void *state, int32_t row, int32_t left, int32_t ri
     const target *t = state;
     int32_t at = row * t->stride + left, count = right - left;
     uint32_t z = start_depth(t, row, left);
+    GN_TALLY(t->tally->centres += (uint32_t)count;)
     if (t->how == FIRST)
         insert_span(t, at, count, z, FIRST);
     else if (t->how == TWO)
@@ -249,24 +253,6 @@ static insertion choose_insertion(const gn_context *context, const gn_mesh *mesh
     return context->settings.surface == GN_SECOND && !mesh->closed ? TWICE : TWO;
 }
 
-#if GN_STATISTICS
-/* Covered centres, counted by walking again without writing. */
-GN_INLINE void count_span(const void *state, int32_t row, int32_t left, int32_t right)
-{
-    uint64_t *const *counter = state;
-    (void)row;
-    **counter += (uint64_t)(right - left);
-}
-static void count_triangle(gn_worker *worker, const gn_rows *rows, const gn_window *window)
-{
-    uint64_t *counter = &worker->statistics.light_texels;
-    worker->statistics.light_triangles++;
-    gn_walk(rows, window, rows->cut, count_span, &counter);
-}
-#else
-#define count_triangle(worker, rows, window) ((void)(worker))
-#endif
-
 static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
 {
     gn_make_depth_plane(&t->plane, v0, v1, v2, area);
@@ -276,17 +262,15 @@ static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const
 #endif
 }
 
-/* Insert a triangle of either orientation whose plane is set. */
-GN_INLINE void insert_triangle(gn_worker *worker, const target *t, walk *insert, const gn_rows *rows,
-                               const gn_window *window)
+GN_INLINE void insert_counted(const target *t, walk *insert, const gn_rows *rows, const gn_window *window)
 {
     insert(t, rows, window);
-    count_triangle(worker, rows, window);
+    GN_TALLY(t->tally->triangles++;)
 }
 
 /* A triangle with a corner beyond the planes or the guard band. */
-static GN_NOINLINE void insert_clipped(const gn_context *context, gn_worker *worker, target *t, walk *insert,
-                                       const gn_object *object, uint32_t triangle, int culled, const gn_window *window)
+static GN_NOINLINE void insert_clipped(const gn_context *context, target *t, walk *insert, const gn_object *object,
+                                       uint32_t triangle, int culled, const gn_window *window)
 {
     uint32_t index[3];
     gn_place corner[3];
@@ -305,12 +289,11 @@ static GN_NOINLINE void insert_clipped(const gn_context *context, gn_worker *wor
         if (area == 0 || (area > 0) != (polygon.area > 0))
             continue;
         if (gn_find_rows(&rows, &v[0], area > 0 ? &v[i] : &v[i + 1], area > 0 ? &v[i + 1] : &v[i], window))
-            insert_triangle(worker, t, insert, &rows, window);
+            insert_counted(t, insert, &rows, window);
     }
 }
 
-static void insert_mesh(const gn_context *context, gn_worker *worker, target *t, uint32_t object_index,
-                        const gn_window *window)
+static void insert_mesh(const gn_context *context, target *t, uint32_t object_index, const gn_window *window)
 {
     const gn_object *object = &context->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
@@ -324,7 +307,7 @@ static void insert_mesh(const gn_context *context, gn_worker *worker, target *t,
         gn_triangle_indices(mesh, i, index);
         const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
         if (clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0)) {
-            insert_clipped(context, worker, t, insert, object, i, culled, window);
+            insert_clipped(context, t, insert, object, i, culled, window);
             continue;
         }
         int64_t area = gn_area(v0, v1, v2);
@@ -342,7 +325,7 @@ static void insert_mesh(const gn_context *context, gn_worker *worker, target *t,
         if (!gn_find_rows(&rows, v0, v1, v2, window))
             continue;
         set_plane(t, v0, v1, v2, area);
-        insert_triangle(worker, t, insert, &rows, window);
+        insert_counted(t, insert, &rows, window);
     }
 }
 
@@ -416,7 +399,8 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
         return status;
     context->light_trusted = (uint8_t)(inside && light->kind == GN_DIRECTIONAL);
     context->bias = gn_make_bias(context);
-    gn_make_falloff(context);
+    if (light->kind == GN_SPOT)
+        gn_make_falloff(context);
     context->light_ready = 1;
     return GN_OK;
 }
@@ -444,10 +428,13 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     clear(context->map + (size_t)first_row * stride, (size_t)rows * stride);
     if (context->plan.layers == GN_LAYERS_TWO)
         clear(t.second, (size_t)rows * stride);
+    GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
     for (uint32_t i = 0; i < context->scene->object_count; i++) {
         t.open = !context->scene->objects[i].mesh->closed;
-        insert_mesh(context, w, &t, i, &window);
+        insert_mesh(context, &t, i, &window);
     }
+    GN_TALLY(w->statistics.light_triangles += tally.triangles;)
+    GN_TALLY(w->statistics.light_texels += gn_tally_centres(&tally);)
     return GN_OK;
 }
 

@@ -106,11 +106,13 @@ static GN_NOINLINE uint64_t q_gradient(int64_t n, const slopes *s, int *steep)
     shift += 32;
     if (q == 0 || shift <= -32)
         return 0;
-    if (shift > 22) {
+    if (shift > 31) {
         *steep = 1;
         return 0;
     }
     uint64_t g = shift < 0 ? q >> -shift : q << shift;
+    if (g >> 54)
+        *steep = 1;
     return n < 0 ? 0u - g : g;
 }
 

@@ -165,7 +165,7 @@ gn_status gn_make_shading(gn_context *context, int32_t largest_w)
 
 void gn_make_falloff(gn_context *context)
 {
-    gn_scaled tangent = gn_scale(context->light.kind == GN_SPOT ? context->light.tan_half : 0, -24);
+    gn_scaled tangent = gn_scale(context->light.tan_half, -24);
     gn_scaled squared = gn_scaled_multiply(tangent, tangent);
     for (int32_t i = 0; i < GN_FALLOFF_STEPS + 2; i++) {
         gn_scaled s = gn_scaled_add(gn_scale(1, 0), gn_scaled_multiply(squared, gn_scale(2 * i, -6)));

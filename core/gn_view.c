@@ -154,7 +154,8 @@ gn_status gn_make_light_view(gn_view *view, const gn_light *light, int32_t width
         /* z = f / (f - n) (1 - n / w) of the span. */
         gn_scaled far_w = gn_scale(view->far_w, 0), range = gn_scale((int64_t)view->far_w - view->near_w, 0);
         gn_scaled scale = gn_scaled_multiply(gn_scaled_divide(far_w, range), gn_scale(GN_DEPTH_SPAN, -30));
-        if (scale.e > 0)
+        /* below 2^11, so that two units of Q stay within the guard */
+        if (gn_scaled_bits(scale) > 11)
             return GN_OUT_OF_RANGE;
         view->post_projective_depth = 1;
         view->depth_scale = (uint32_t)scale.m;

@@ -7,6 +7,7 @@
  * A region looks only at the triangles in its bins (gn_bins.c). Memory: 8 bytes a pixel of the region and worker. */
 #include "gn_clip.h"
 #include "gn_context.h"
+#include "gn_tally.h"
 
 typedef struct target {
     uint32_t *q, *triangle; /* of the region's first row */
@@ -16,6 +17,7 @@ typedef struct target {
 #if GN_VECTOR
     gn_u64x8 lanes; /* the plane's step to each of 8 pixels */
 #endif
+    GN_TALLY(gn_tally *tally;)
 } target;
 
 #if GN_VECTOR
@@ -41,6 +43,7 @@ GN_INLINE void span_visible(const void *state, int32_t row, int32_t left, int32_
     static const gn_u32x8 lane = {0, 1, 2, 3, 4, 5, 6, 7};
     const target *t = state;
     int32_t at = (row - t->row0) * t->stride + left - t->column0, count = right - left;
+    GN_TALLY(t->tally->centres += (uint32_t)count;)
     gn_u64x8 value = t->lanes + start_value(t, row, left);
     gn_u32x8 none = {0};
     for (; count >= 8; count -= 8, at += 8, value += t->plane.dx * 8)
@@ -53,6 +56,7 @@ GN_INLINE void tiny_visible(const void *state, int32_t row, int32_t column, gn_i
 {
     const target *t = state;
     int32_t at = (row - t->row0) * t->stride + column - t->column0;
+    GN_TALLY(t->tally->lanes_8 -= outside >= 0;)
     draw_lanes(t, at, t->lanes + start_value(t, row, column), (gn_u32x8)(outside < 0));
 }
 #else
@@ -60,6 +64,7 @@ GN_INLINE void span_visible(const void *state, int32_t row, int32_t left, int32_
 {
     const target *t = state;
     int32_t at = (row - t->row0) * t->stride + left - t->column0;
+    GN_TALLY(t->tally->centres += (uint32_t)(right - left);)
     uint32_t *q = t->q + at, *triangle = t->triangle + at, *end = q + (right - left), identifier = t->identifier;
     uint64_t value = t->plane.base + (uint64_t)(uint32_t)row * t->plane.dy + (uint64_t)(uint32_t)left * t->plane.dx;
     uint64_t dx = t->plane.dx;
@@ -84,35 +89,18 @@ static GN_NOINLINE void walk_visible(const target *t, const gn_rows *rows, const
     gn_walk(rows, window, rows->cut, span_visible, t);
 }
 
-#if GN_STATISTICS
-GN_INLINE void count_span(const void *state, int32_t row, int32_t left, int32_t right)
-{
-    uint64_t *const *counter = state;
-    (void)row;
-    **counter += (uint64_t)(right - left);
-}
-static void count_triangle(gn_worker *worker, const gn_rows *rows, const gn_window *window)
-{
-    uint64_t *counter = &worker->statistics.camera_fragments;
-    worker->statistics.camera_triangles++;
-    gn_walk(rows, window, rows->cut, count_span, &counter);
-}
-#else
-#define count_triangle(worker, rows, window) ((void)(worker))
-#endif
-
 /* Draw a triangle whose plane is set. */
-static void draw(gn_worker *worker, target *t, const gn_rows *rows, const gn_window *window)
+static void draw(target *t, const gn_rows *rows, const gn_window *window)
 {
 #if GN_VECTOR
     static const gn_u64x8 lane = {0, 1, 2, 3, 4, 5, 6, 7};
     t->lanes = lane * t->plane.dx;
 #endif
     walk_visible(t, rows, window);
-    count_triangle(worker, rows, window);
+    GN_TALLY(t->tally->triangles++;)
 }
 
-static GN_NOINLINE void draw_clipped(const gn_context *context, gn_worker *worker, target *t, const gn_object *object,
+static GN_NOINLINE void draw_clipped(const gn_context *context, target *t, const gn_object *object,
                                      const uint32_t index[3], const gn_window *window)
 {
     gn_place corner[3];
@@ -130,12 +118,12 @@ static GN_NOINLINE void draw_clipped(const gn_context *context, gn_worker *worke
         if (area == 0 || (area > 0) != (polygon.area > 0))
             continue;
         if (gn_find_rows(&rows, &v[0], area > 0 ? &v[i] : &v[i + 1], area > 0 ? &v[i + 1] : &v[i], window))
-            draw(worker, t, &rows, window);
+            draw(t, &rows, window);
     }
 }
 
-static void draw_triangle(const gn_context *context, gn_worker *worker, target *t, uint32_t object_index,
-                          uint32_t triangle, const gn_window *window)
+static void draw_triangle(const gn_context *context, target *t, uint32_t object_index, uint32_t triangle,
+                          const gn_window *window)
 {
     const gn_object *object = &context->scene->objects[object_index];
     const gn_object_state *state = &context->objects[object_index];
@@ -145,7 +133,7 @@ static void draw_triangle(const gn_context *context, gn_worker *worker, target *
     const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
     t->identifier = object_index << context->triangle_bits | triangle;
     if (state->clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0)) {
-        draw_clipped(context, worker, t, object, index, window);
+        draw_clipped(context, t, object, index, window);
         return;
     }
     gn_rows rows;
@@ -158,7 +146,7 @@ static void draw_triangle(const gn_context *context, gn_worker *worker, target *
     if (area == 0 || !gn_find_rows(&rows, v0, v1, v2, window))
         return;
     gn_make_q_plane(&t->plane, v0, v1, v2, area);
-    draw(worker, t, &rows, window);
+    draw(t, &rows, window);
 }
 
 static void clear(uint32_t *plane, uint32_t count, uint32_t value)
@@ -167,6 +155,29 @@ static void clear(uint32_t *plane, uint32_t count, uint32_t value)
         plane[0] = plane[1] = plane[2] = plane[3] = value;
     while (count--)
         *plane++ = value;
+}
+
+static void draw_all(const gn_context *context, target *t, const gn_window *window)
+{
+    for (uint32_t o = 0; o < context->scene->object_count; o++)
+        for (uint32_t i = 0; i < context->scene->objects[o].mesh->triangle_count; i++)
+            draw_triangle(context, t, o, i, window);
+}
+
+/* Two neighbouring bins a level. */
+static void draw_bins(const gn_context *context, target *t, const gn_window *window)
+{
+    uint32_t band = (uint32_t)window->row0 / context->plan.region_height, first_bin = 0;
+    uint32_t mask = ((uint32_t)1 << context->triangle_bits) - 1;
+    for (uint32_t level = 0; level < context->bin_levels; level++) {
+        uint32_t bin = band >> level, from = context->bin_first[first_bin + (bin ? bin - 1 : 0)];
+        uint32_t to = context->bin_first[first_bin + bin + 1];
+        for (uint32_t i = from; i < to; i++) {
+            uint32_t identifier = context->bin_items[i];
+            draw_triangle(context, t, identifier >> context->triangle_bits, identifier & mask, window);
+        }
+        first_bin += ((context->bands - 1) >> level) + 1;
+    }
 }
 
 void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window *window)
@@ -180,22 +191,11 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
     uint32_t count = (uint32_t)(t.stride * (window->row1 - window->row0));
     clear(t.q, count, context->shading.nothing);
     clear(t.triangle, count, GN_NO_TRIANGLE);
-    if (!context->bin_count) {
-        for (uint32_t o = 0; o < context->scene->object_count; o++)
-            for (uint32_t i = 0; i < context->scene->objects[o].mesh->triangle_count; i++)
-                draw_triangle(context, worker, &t, o, i, window);
-        return;
-    }
-    uint32_t band = (uint32_t)window->row0 / context->plan.region_height, first_bin = 0;
-    uint32_t mask = context->triangle_bits ? 0xffffffffu >> (32 - context->triangle_bits) : 0;
-    for (uint32_t level = 0; level < context->bin_levels; level++) {
-        uint32_t bin = band >> level, from = context->bin_first[first_bin + (bin ? bin - 1 : 0)];
-        uint32_t to = context->bin_first[first_bin + bin + 1];
-        for (uint32_t i = from; i < to; i++) {
-            uint32_t identifier = context->bin_items[i];
-            uint32_t object = context->triangle_bits < 32 ? identifier >> context->triangle_bits : 0;
-            draw_triangle(context, worker, &t, object, identifier & mask, window);
-        }
-        first_bin += ((context->bands - 1) >> level) + 1;
-    }
+    GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
+    if (context->bin_count)
+        draw_bins(context, &t, window);
+    else
+        draw_all(context, &t, window);
+    GN_TALLY(worker->statistics.camera_triangles += tally.triangles;)
+    GN_TALLY(worker->statistics.camera_fragments += gn_tally_centres(&tally);)
 }
