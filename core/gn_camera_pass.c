@@ -5,9 +5,12 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
 {
     if (!context || !camera)
         return GN_BAD_ARGUMENT;
-    if (!context->light_ready)
+    if (context->phase == GN_PHASE_NONE)
         return GN_NOT_READY;
-    context->camera_ready = 0;
+    for (uint32_t i = 0; i < context->plan.light_regions; i++)
+        if (context->progress[i] != GN_REGION_DONE)
+            return GN_NOT_READY;
+    context->phase = GN_PHASE_CAMERA_FAILED; /* until all is well: the light pass's part is overwritten from here */
     gn_lay_out_camera(context, &context->plan, &context->settings);
     context->camera = *camera;
     int32_t largest_w;
@@ -24,7 +27,7 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
         return status;
     for (uint32_t i = 0; i < context->settings.workers; i++)
         gn_clear_colours(&context->workers[i]);
-    context->camera_ready = 1;
+    context->phase = GN_PHASE_CAMERA;
     return GN_OK;
 }
 
@@ -33,7 +36,7 @@ gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker
 {
     if (!context || !pixels || worker >= context->settings.workers || region >= context->plan.camera_regions)
         return GN_BAD_ARGUMENT;
-    if (!context->camera_ready)
+    if (context->phase != GN_PHASE_CAMERA)
         return GN_NOT_READY;
     const gn_settings *settings = &context->settings;
     uint32_t columns = ((uint32_t)settings->width + context->plan.region_width - 1) / context->plan.region_width;
@@ -47,6 +50,8 @@ gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker
     uint32_t pixel_bytes = settings->format == GN_RGB888 ? 3 : 2;
     if (settings->format == GN_NO_COLOUR)
         colour = 0;
+    if (settings->format == GN_RGB565 && (uintptr_t)colour % 2)
+        return GN_MISALIGNED;
     gn_rasterise_region(context, w, &window);
     for (uint32_t row = 0; row < height; row++) {
         uint32_t *q = w->q + row * width, tested = 0;

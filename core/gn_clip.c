@@ -2,7 +2,7 @@
 
 enum { PLANES = 6 };
 
-/* Distance to a plane, positive inside. Planes: near, far, then the guard band's four sides. |.| < 2^35. */
+/* Distance to a plane, positive inside. Planes: near, far, then the guard band's four sides. |.| < 2^45. */
 static int64_t distance(const gn_view *view, const gn_place *p, int plane)
 {
     int64_t w = p->c[2];
@@ -40,8 +40,8 @@ static gn_place crossing(const gn_view *view, const gn_place *a, const gn_place 
     uint32_t t = gn_divide(from_a << 32, (uint32_t)(from_a + from_b) + 1); /* t / 2^32 of the way from a to b */
     gn_place p;
     for (int i = 0; i < 3; i++) {
-        int64_t apart = (int64_t)b->c[i] - a->c[i], high = gn_floor_shift_64(apart, 16), low = apart & 0xffff;
-        p.c[i] = (int32_t)(a->c[i] + gn_floor_shift_64(high * t + gn_floor_shift_64(low * t, 16), 16));
+        int64_t apart = b->c[i] - a->c[i], high = gn_floor_shift_64(apart, 16), low = apart & 0xffff;
+        p.c[i] = a->c[i] + gn_floor_shift_64(high * t + gn_floor_shift_64(low * t, 16), 16);
     }
     if (plane == 0)
         p.c[2] = view->near_w;
@@ -88,5 +88,53 @@ void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place c
             polygon->area = area;
             polygon->reference = i;
         }
+    }
+}
+
+void gn_fit_depth_plane(gn_depth_plane *plane, const gn_polygon *polygon)
+{
+    const gn_vertex *v = polygon->v;
+    const int64_t least = GN_DEPTH_GUARD, most = ((int64_t)1 << 32) - GN_DEPTH_GUARD;
+    int64_t low = most, high = least;
+    uint32_t farthest = 0;
+    for (int32_t i = 0; i < polygon->count; i++) {
+        int64_t z = 2 * (int64_t)v[0].depth;
+        if (plane->dx | plane->dy)
+            z += gn_floor_shift_64(
+                gn_multiply(v[i].x - v[0].x, (int32_t)plane->dx) + gn_multiply(v[i].y - v[0].y, (int32_t)plane->dy), 8);
+        low = z < low ? z : low;
+        high = z > high ? z : high;
+        farthest = v[i].depth > farthest ? v[i].depth : farthest;
+    }
+    if (high - low > most - least) {
+        plane->dx = plane->dy = 0;
+        plane->base = 2 * farthest;
+    } else if (low < least) {
+        plane->base += (uint32_t)(least - low);
+    } else if (high > most) {
+        plane->base -= (uint32_t)(high - most);
+    }
+}
+
+void gn_fit_q_plane(gn_q_plane *plane, const gn_polygon *polygon, uint32_t least)
+{
+    const gn_vertex *v = polygon->v;
+    /* gradients with 10 fraction bits a pixel: products below 2^62 */
+    int64_t gx = gn_floor_shift_64((int64_t)plane->dx, 22), gy = gn_floor_shift_64((int64_t)plane->dy, 22);
+    int64_t low = v[0].depth, high = low, plane_low = low, plane_high = low;
+    for (int32_t i = 1; i < polygon->count; i++) {
+        int64_t depth = v[i].depth;
+        int64_t q = v[0].depth + gn_floor_shift_64((v[i].x - v[0].x) * gx + (v[i].y - v[0].y) * gy, 18);
+        low = depth < low ? depth : low;
+        high = depth > high ? depth : high;
+        plane_low = q < plane_low ? q : plane_low;
+        plane_high = q > plane_high ? q : plane_high;
+    }
+    int64_t margin = gn_floor_shift_64(high - low, 4) + 256;
+    if (plane_low < low - margin || plane_high > high + margin) {
+        plane->dx = plane->dy = 0;
+        plane->base = (uint64_t)low << 32;
+    } else if (plane_low < least) {
+        plane->base += (uint64_t)(least - plane_low) << 32;
     }
 }

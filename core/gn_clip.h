@@ -20,4 +20,12 @@ typedef struct gn_polygon {
 
 void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place corner[3]);
 
+/* Keep a plane through v[0] from wrapping over the polygon: its other corners were snapped, so where the plane is steep
+ * and ends in the near or far plane they lie beyond the range. Moves the plane back into it. */
+void gn_fit_depth_plane(gn_depth_plane *plane, const gn_polygon *polygon);
+
+/* The same for Q: where the plane leaves the corners' range by more than a sixteenth of it, the triangle is all but
+ * edge-on: its farthest Q; where it falls below the least Q of a surface, it is moved up. */
+void gn_fit_q_plane(gn_q_plane *plane, const gn_polygon *polygon, uint32_t least);
+
 #endif

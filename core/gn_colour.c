@@ -57,7 +57,8 @@ static void colour_spot(const gn_context *context, gn_worker *worker, const uint
         }
         uint32_t colour = pair->unlit;
         if ((int32_t)lit[i] >= 0 && pair->faces_light) {
-            uint32_t cosine = (uint32_t)(gn_multiply_u(pair->distance, lit[i]) >> 32) >> pair->distance_shift;
+            uint64_t product = gn_multiply_u(pair->distance, lit[i]) >> pair->distance_shift;
+            uint32_t cosine = product > 0x10000u ? 0x10000u : (uint32_t)product;
             colour = gn_pack(context->scene->objects[last >> context->triangle_bits].colour,
                              gn_intensity(context, cosine), format);
         }

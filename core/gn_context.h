@@ -14,6 +14,9 @@
 #ifndef GN_COLOUR_CACHE
 #define GN_COLOUR_CACHE 64
 #endif
+#if GN_COLOUR_CACHE < 1 || (GN_COLOUR_CACHE & (GN_COLOUR_CACHE - 1)) != 0
+#error "GN_COLOUR_CACHE must be a power of two"
+#endif
 
 typedef struct gn_object_state {
     uint32_t first_vertex; /* of the object in the vertex array */
@@ -39,12 +42,13 @@ typedef struct gn_shading {
     uint32_t near_w, far_w;  /* spot: in the unit of coordinate[2] */
 } gn_shading;
 
-enum { GN_FALLOFF_STEPS = 64 };
+typedef enum gn_phase { GN_PHASE_NONE, GN_PHASE_LIGHT, GN_PHASE_CAMERA_FAILED, GN_PHASE_CAMERA } gn_phase;
+typedef enum gn_progress { GN_REGION_UNTOUCHED, GN_REGION_LAYERS, GN_REGION_DONE } gn_progress;
 
 typedef struct gn_colour_pair {
     uint32_t triangle;
     uint32_t lit, unlit; /* as written to the image; lit: full light */
-    uint32_t distance;   /* spot: of the light from the plane, mantissa */
+    uint32_t distance;   /* spot: N.L = distance (near / |point - light| in 2^-30) 2^-shift, in 2^-16 */
     uint8_t distance_shift;
     uint8_t faces_light; /* camera and light are on the same side */
 } gn_colour_pair;
@@ -73,8 +77,9 @@ struct gn_context {
     gn_view light_view;
     uint32_t bias; /* in units of a 32-bit depth */
     uint8_t light_trusted;
-    uint8_t light_ready, camera_ready;
-    uint16_t falloff[GN_FALLOFF_STEPS + 2]; /* spot: w / distance by (u^2 + v^2), Q1.15 */
+    uint8_t phase;        /* gn_phase: whose turn it is to use the shared part */
+    uint8_t *progress;    /* gn_progress of each light region, written by whoever renders it */
+    uint32_t tan_squared; /* spot: of half the opening, 19 fraction bits */
 
     gn_camera camera;
     gn_view camera_view;
@@ -101,8 +106,14 @@ GN_INLINE void gn_triangle_indices(const gn_mesh *mesh, uint32_t triangle, uint3
 /* World position of a vertex. GN_OUT_OF_RANGE beyond GN_WORLD_MAX. */
 gn_status gn_world_position(const gn_object *object, uint32_t vertex, int32_t world[3]);
 
-/* Sign of the model's determinant: 1 if it mirrors. */
-int gn_mirrors(const gn_model *model);
+/* GN_OUT_OF_RANGE where a number of the model is outside its stated range. */
+gn_status gn_check_model(const gn_model *model);
+
+/* a x b, |a|, |b| <= 2^30. */
+void gn_cross(int64_t n[3], const int32_t a[3], const int32_t b[3]);
+
+/* Sign of n . v, exactly: |n| <= 2^61, |v| <= 2^30. */
+int gn_dot_sign(const int64_t n[3], const int32_t v[3]);
 
 /* Transform all vertices of the scene for a view; sets the objects' states. *largest_w: of all vertices in front;
  * *inside: whether all vertices project inside the screen. */
@@ -112,8 +123,8 @@ gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *
 void gn_triangle_places(const gn_view *view, const gn_object *object, const uint32_t index[3], gn_place corner[3]);
 
 /* Lay out the shared part of the block for one pass; returns its size. With a null context only the size. */
-size_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings);
-size_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings);
+uint64_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings);
+uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings);
 
 /* gn_bias.c: in units of a 32-bit depth; 0xffffffff where it exceeds the range. */
 uint32_t gn_make_bias(const gn_context *context);
@@ -123,7 +134,6 @@ uint32_t gn_make_bias(const gn_context *context);
  */
 gn_status gn_make_shading(gn_context *context, int32_t largest_w);
 void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
-void gn_make_falloff(gn_context *context);
 
 /* gn_lambert.c, gn_colour.c: the colours of a triangle; the colours and the mask of one row. Returns the number of
  * pixels that see a surface; *tested: of these, turned to the light. colour or mask may be 0. */

@@ -22,18 +22,6 @@ uint32_t gn_pack(gn_rgb c, uint32_t intensity, uint8_t format)
     return (r + 0x8000u) >> 16 | ((g + 0x8000u) >> 16) << 8 | ((b + 0x8000u) >> 16) << 16;
 }
 
-/* Sign of n . v, exactly: |n| < 2^53, |v| <= 2^30. */
-static int dot_sign(const int64_t n[3], const int32_t v[3])
-{
-    int64_t high = 0, low = 0;
-    for (int i = 0; i < 3; i++) {
-        high += gn_floor_shift_64(n[i], 26) * v[i];
-        low += (n[i] & 0x3ffffff) * v[i];
-    }
-    high += gn_floor_shift_64(low, 26);
-    return high < 0 ? -1 : high > 0 || (low & 0x3ffffff) ? 1 : 0;
-}
-
 /* n scaled to components below 2^30, the largest at least 2^29. n != 0. */
 static void normalise(int32_t out[3], const int64_t n[3])
 {
@@ -68,20 +56,21 @@ void gn_make_pair(const gn_context *context, gn_colour_pair *pair, uint32_t tria
     const gn_light *light = &context->light;
     const gn_camera *camera = &context->camera;
     uint32_t index[3];
-    int32_t p[3][3], to_camera[3], to_light[3], unit[3];
+    int32_t p[3][3], edge[2][3], to_camera[3], to_light[3], unit[3];
     int64_t n[3];
     gn_triangle_indices(object->mesh, triangle & (((uint32_t)1 << context->triangle_bits) - 1), index);
     for (int i = 0; i < 3; i++)
         (void)gn_world_position(object, index[i], p[i]);
     for (int i = 0; i < 3; i++) {
-        int j = i < 2 ? i + 1 : 0, k = 3 - i - j;
-        n[i] = gn_multiply(p[1][j] - p[0][j], p[2][k] - p[0][k]) - gn_multiply(p[1][k] - p[0][k], p[2][j] - p[0][j]);
+        edge[0][i] = p[1][i] - p[0][i];
+        edge[1][i] = p[2][i] - p[0][i];
         to_camera[i] = camera->projection == GN_PERSPECTIVE ? camera->eye[i] - p[0][i] : -camera->forward[i];
         to_light[i] = light->kind == GN_SPOT ? light->position[i] - p[0][i] : -light->forward[i];
     }
+    gn_cross(n, edge[0], edge[1]);
     pair->lit = pair->unlit = gn_pack(object->colour, gn_intensity(context, 0), format);
-    int side = dot_sign(n, to_light);
-    if (side == 0 || side != dot_sign(n, to_camera))
+    int side = gn_dot_sign(n, to_light);
+    if (side == 0 || side != gn_dot_sign(n, to_camera))
         return;
     pair->faces_light = 1;
     normalise(unit, n);
@@ -92,11 +81,12 @@ void gn_make_pair(const gn_context *context, gn_colour_pair *pair, uint32_t tria
         pair->lit = gn_pack(object->colour, gn_intensity(context, cosine), format);
         return;
     }
-    /* h / near = distance 2^(-18 - shift) near / |point - light| in 2^-30 */
+    /* N.L = h / near times near / |point - light|: of 2^-30 into 2^-16 */
     gn_scaled h = gn_scaled_divide(gn_scale((int64_t)dot, 0),
                                    gn_scaled_multiply(gn_scale(length, 0), gn_scale(light->near_depth, 0)));
-    if (h.m == 0 || h.e + 18 < -31)
+    if (h.m == 0 || h.e < 14 - 63)
         return;
+    GN_ASSERT(h.e <= 14); /* h <= 2^29, near >= 1 */
     pair->distance = (uint32_t)h.m;
-    pair->distance_shift = h.e + 18 > 0 ? 0 : (uint8_t)(-18 - h.e);
+    pair->distance_shift = (uint8_t)(14 - h.e);
 }

@@ -253,13 +253,20 @@ static insertion choose_insertion(const gn_context *context, const gn_mesh *mesh
     return context->settings.surface == GN_SECOND && !mesh->closed ? TWICE : TWO;
 }
 
-static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
+static void set_lanes(target *t)
 {
-    gn_make_depth_plane(&t->plane, v0, v1, v2, area);
 #if GN_VECTOR
     static const gn_u32x16 lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     t->lanes = lane * t->plane.dx;
+#else
+    (void)t;
 #endif
+}
+
+static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
+{
+    gn_make_depth_plane(&t->plane, v0, v1, v2, area);
+    set_lanes(t);
 }
 
 GN_INLINE void insert_counted(const target *t, walk *insert, const gn_rows *rows, const gn_window *window)
@@ -284,6 +291,8 @@ static GN_NOINLINE void insert_clipped(const gn_context *context, target *t, wal
     const gn_vertex *v = polygon.v;
     const gn_vertex *r1 = &v[polygon.reference], *r2 = r1 + 1;
     set_plane(t, &v[0], polygon.area > 0 ? r1 : r2, polygon.area > 0 ? r2 : r1, polygon.area);
+    gn_fit_depth_plane(&t->plane, &polygon);
+    set_lanes(t);
     for (int32_t i = 1; i + 1 < polygon.count; i++) {
         int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
         if (area == 0 || (area > 0) != (polygon.area > 0))
@@ -347,10 +356,10 @@ GN_INLINE gn_depth dual(gn_depth z1, gn_depth z2, gn_depth bias)
 gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker)
 {
     uint32_t first_row, rows, stride;
-    if (!context || !context->light_ready)
-        return context ? GN_NOT_READY : GN_BAD_ARGUMENT;
     if (!gn_layer(context, 0, region, worker, &first_row, &rows, &stride))
         return GN_BAD_ARGUMENT;
+    if (context->phase != GN_PHASE_LIGHT || context->progress[region] != GN_REGION_LAYERS)
+        return GN_NOT_READY;
     gn_depth *z1 = context->map + (size_t)first_row * stride;
     const gn_depth *z2 = context->workers[worker].second;
     size_t count = (size_t)rows * stride;
@@ -377,16 +386,26 @@ gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker
         for (size_t i = 0; i < count; i++)
             z1[i] = z1[i] & 1 ? dual(z1[i], z2[i], bias) : z2[i];
     }
+    context->progress[region] = GN_REGION_DONE;
     return GN_OK;
 }
 
 /* ---- the pass -------------------------------------------------------------------------------------------------- */
 
+/* Models may change before the camera pass, so their objects may leave the box. */
+static int has_models(const gn_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        if (scene->objects[i].model)
+            return 1;
+    return 0;
+}
+
 gn_status gn_light_begin(gn_context *context, const gn_light *light)
 {
     if (!context || !light)
         return GN_BAD_ARGUMENT;
-    context->light_ready = context->camera_ready = 0;
+    context->phase = GN_PHASE_NONE;
     gn_lay_out_light(context, &context->plan, &context->settings);
     context->light = *light;
     gn_status status =
@@ -397,11 +416,12 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
         status = gn_transform_scene(context, &context->light_view, &largest_w, &inside);
     if (status != GN_OK)
         return status;
-    context->light_trusted = (uint8_t)(inside && light->kind == GN_DIRECTIONAL);
+    context->light_trusted = (uint8_t)(inside && light->kind == GN_DIRECTIONAL && !has_models(context->scene));
     context->bias = gn_make_bias(context);
-    if (light->kind == GN_SPOT)
-        gn_make_falloff(context);
-    context->light_ready = 1;
+    context->tan_squared = (uint32_t)(gn_multiply_u(light->tan_half, light->tan_half) >> 29);
+    for (uint32_t i = 0; i < context->plan.light_regions; i++)
+        context->progress[i] = GN_REGION_UNTOUCHED;
+    context->phase = GN_PHASE_LIGHT;
     return GN_OK;
 }
 
@@ -414,10 +434,10 @@ static void clear(gn_depth *layer, size_t count)
 gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
 {
     uint32_t first_row, rows, stride;
-    if (!context || !context->light_ready)
-        return context ? GN_NOT_READY : GN_BAD_ARGUMENT;
     if (!gn_layer(context, 0, region, worker, &first_row, &rows, &stride))
         return GN_BAD_ARGUMENT;
+    if (context->phase != GN_PHASE_LIGHT)
+        return GN_NOT_READY;
     gn_worker *w = &context->workers[worker];
     gn_window window = {0, (int32_t)first_row, context->settings.map_width, (int32_t)(first_row + rows)};
     target t;
@@ -435,6 +455,7 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     }
     GN_TALLY(w->statistics.light_triangles += tally.triangles;)
     GN_TALLY(w->statistics.light_texels += gn_tally_centres(&tally);)
+    context->progress[region] = GN_REGION_LAYERS;
     return GN_OK;
 }
 

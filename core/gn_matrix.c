@@ -156,7 +156,8 @@ gn_status gn_orthographic(gn_camera *camera, int32_t half_height, int32_t near_d
 {
     if (!camera)
         return GN_BAD_ARGUMENT;
-    if (!depths_are_good(near_depth, far_depth, -DEPTH_MAX) || half_height < 1 || half_height > HALF_HEIGHT_MAX)
+    if (!depths_are_good(near_depth, far_depth, -DEPTH_MAX) || near_depth > far_depth - 64 || half_height < 1 ||
+        half_height > HALF_HEIGHT_MAX)
         return GN_OUT_OF_RANGE;
     camera->projection = GN_ORTHOGRAPHIC;
     camera->tan_half = 0;

@@ -33,7 +33,7 @@ static gn_status check_mesh(const gn_mesh *mesh)
 {
     if (!mesh || (mesh->vertex_count && !mesh->vertices) || (mesh->triangle_count && !mesh->indices))
         return GN_BAD_ARGUMENT;
-    if (mesh->index_size != 2 && mesh->index_size != 4)
+    if ((mesh->index_size != 2 && mesh->index_size != 4) || mesh->closed > 1)
         return GN_BAD_MESH;
     if ((uintptr_t)mesh->indices % mesh->index_size)
         return GN_BAD_MESH;
@@ -49,17 +49,6 @@ static gn_status check_mesh(const gn_mesh *mesh)
         if (index[0] >= mesh->vertex_count || index[1] >= mesh->vertex_count || index[2] >= mesh->vertex_count)
             return GN_BAD_MESH;
     }
-    return GN_OK;
-}
-
-static gn_status check_model(const gn_model *model)
-{
-    if (model->shift > 62)
-        return GN_OUT_OF_RANGE;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            if (model->m[i][j] < -(1 << 30) || model->m[i][j] > (1 << 30))
-                return GN_OUT_OF_RANGE;
     return GN_OK;
 }
 
@@ -86,7 +75,7 @@ static gn_status check_scene(const gn_scene *scene, gn_plan *plan, int *closed, 
         if (i == 0 || object->mesh != scene->objects[i - 1].mesh)
             status = check_mesh(object->mesh);
         if (status == GN_OK && object->model)
-            status = check_model(object->model);
+            status = gn_check_model(object->model);
         if (status != GN_OK)
             return status;
         triangles += object->mesh->triangle_count;
@@ -126,16 +115,17 @@ static gn_status choose_layers(gn_plan *plan, const gn_settings *s, int all_clos
     return GN_OK;
 }
 
-static size_t align_up(size_t bytes)
+/* Sizes are summed in 64 bits: on a 32-bit machine a plan may exceed the address space. */
+static uint64_t align_up(uint64_t bytes)
 {
     return (bytes + GN_ALIGNMENT - 1) / GN_ALIGNMENT * GN_ALIGNMENT;
 }
 
 /* Take bytes from the block, or only count them. */
-static void *take(uint8_t *base, size_t *used, uint64_t bytes)
+static void *take(uint8_t *base, uint64_t *used, uint64_t bytes)
 {
-    void *p = base ? base + *used : 0;
-    *used = align_up(*used + (size_t)bytes);
+    void *p = base ? base + (size_t)*used : 0;
+    *used = align_up(*used + bytes);
     return p;
 }
 
@@ -146,27 +136,30 @@ static uint32_t map_stride(const gn_settings *settings)
 }
 
 /* Head of the block: what stays between the passes. Returns its size. */
-static size_t lay_out_head(gn_context *context, const gn_scene *scene, const gn_settings *settings)
+static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const gn_settings *settings,
+                             uint32_t light_regions)
 {
     uint8_t *base = (uint8_t *)context;
-    size_t used = align_up(sizeof(gn_context));
+    uint64_t used = align_up(sizeof(gn_context));
     gn_object_state *objects = take(base, &used, (uint64_t)scene->object_count * sizeof *objects);
     gn_worker *workers = take(base, &used, (uint64_t)settings->workers * sizeof *workers);
+    uint8_t *progress = take(base, &used, light_regions);
     gn_depth *map = take(base, &used, (uint64_t)map_stride(settings) * settings->map_height * sizeof *map);
     if (context) {
         context->objects = objects;
         context->workers = workers;
+        context->progress = progress;
         context->map = map;
         context->map_stride = map_stride(settings);
-        context->shared = base + used;
+        context->shared = base + (size_t)used;
     }
     return used;
 }
 
-size_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings)
+uint64_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings)
 {
     uint8_t *base = context ? context->shared : 0;
-    size_t used = 0;
+    uint64_t used = 0;
     gn_vertex *vertices = take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
     if (context)
         context->vertices = vertices;
@@ -178,10 +171,10 @@ size_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_setti
     return used;
 }
 
-size_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings)
+uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings)
 {
     uint8_t *base = context ? context->shared : 0;
-    size_t used = 0;
+    uint64_t used = 0;
     uint32_t bands, levels, bins, pixels = (uint32_t)plan->region_width * plan->region_height;
     gn_count_bins(plan, settings, &bands, &levels, &bins);
     gn_vertex *vertices = take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
@@ -239,10 +232,13 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
     p.map_rows = (uint16_t)rows;
     p.light_regions = (settings->map_height + rows - 1) / rows;
     p.camera_regions = (settings->width + width - 1) / width * ((settings->height + height - 1) / height);
+    uint64_t head = lay_out_head(0, scene, settings, p.light_regions);
+    uint64_t light = head + gn_lay_out_light(0, &p, settings), camera = head + gn_lay_out_camera(0, &p, settings);
+    if (light > SIZE_MAX || camera > SIZE_MAX)
+        return GN_TOO_MANY;
     p.map_bytes = (size_t)map_stride(settings) * settings->map_height * sizeof(gn_depth);
-    size_t head = lay_out_head(0, scene, settings);
-    p.light_bytes = head + gn_lay_out_light(0, &p, settings);
-    p.camera_bytes = head + gn_lay_out_camera(0, &p, settings);
+    p.light_bytes = (size_t)light;
+    p.camera_bytes = (size_t)camera;
     p.bytes = p.light_bytes > p.camera_bytes ? p.light_bytes : p.camera_bytes;
     *plan = p;
     return GN_OK;
@@ -266,7 +262,7 @@ gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings
     c->scene = scene;
     c->settings = *settings;
     c->plan = plan;
-    lay_out_head(c, scene, settings);
+    lay_out_head(c, scene, settings, plan.light_regions);
     gn_plan counted;
     int closed;
     (void)check_scene(scene, &counted, &closed, &c->triangle_bits);

@@ -138,6 +138,27 @@ static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int
 }
 #endif
 
+/* 1 / sqrt(i / 64) for i = 16 .. 64, 14 fraction bits: 2^14 sqrt(64 / i), rounded. */
+static const uint16_t inverse_root[49] = {32768, 31790, 30894, 30070, 29309, 28602, 27945, 27330, 26755, 26214,
+                                          25705, 25225, 24770, 24339, 23930, 23541, 23170, 22817, 22479, 22155,
+                                          21845, 21548, 21263, 20988, 20724, 20470, 20225, 19988, 19760, 19539,
+                                          19326, 19119, 18919, 18725, 18536, 18354, 18176, 18004, 17837, 17674,
+                                          17515, 17361, 17211, 17064, 16921, 16782, 16646, 16514, 16384};
+
+/* near / |point - light| in 2^-30: nearness / sqrt(s), s = 1 + tan^2 (x^2 + y^2) with x, y in -1 .. 1 across the map.
+ * The root is interpolated between 48 values; relative error 2^-11. */
+static uint32_t over_distance(uint32_t nearness, uint32_t u, uint32_t v, uint32_t tan_squared)
+{
+    int32_t x = (int32_t)(u >> 14) - (1 << 15), y = (int32_t)(v >> 14) - (1 << 15);
+    uint32_t squared = (uint32_t)(x * x) + (uint32_t)(y * y); /* 2^30 = 1 */
+    uint32_t s = (1u << 18) + ((uint32_t)(gn_multiply_u(squared, tan_squared) >> 32) << 1);
+    unsigned even = gn_leading_zeros(s) & ~1u;
+    s <<= even; /* in [2^30, 2^32), that is 2^(32 + even - 14) s / 2^18 */
+    const uint16_t *root = &inverse_root[(s >> 26) - 16];
+    uint32_t inverse = root[0] - (((uint32_t)(root[0] - root[1]) * (s >> 10 & 0xffffu)) >> 16);
+    return (uint32_t)(gn_multiply_u(nearness, inverse) >> (21 - even / 2));
+}
+
 static void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count)
 {
     const gn_shading *s = &context->shading;
@@ -162,14 +183,10 @@ static void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int32_
         row = row >= height ? height - 1 : row;
         uint32_t z =
             GN_DEPTH_GUARD + (uint32_t)(gn_multiply_u(light->depth_scale, (1u << 30) - nearness) >> light->depth_shift);
+        z = z > 0x7fffffffu ? 0x7fffffffu : z; /* short ranges: the reciprocal's error exceeds the guard */
         if ((gn_depth)((2 * z) >> (32 - GN_DEPTH_BITS)) > context->map[row * context->map_stride + column])
             continue;
-        /* near / |point - light| = near / w / sqrt(1 + tan^2 (u^2 + v^2)) */
-        int32_t du = (int32_t)(left >> 14) - (1 << 15), dv = (int32_t)(top >> 14) - (1 << 15);
-        uint32_t squared = (uint32_t)(du * du) + (uint32_t)(dv * dv);
-        const uint16_t *f = &context->falloff[squared >> 25];
-        uint32_t falloff = f[0] - (((uint32_t)(f[0] - f[1]) * (squared >> 10 & 0x7fffu)) >> 15);
-        q[i] = (uint32_t)(gn_multiply_u(nearness, falloff) >> 15);
+        q[i] = over_distance(nearness, left, top, context->tan_squared);
     }
 }
 

@@ -159,17 +159,7 @@ gn_status gn_make_shading(gn_context *context, int32_t largest_w)
     if (near_w < 1 || near_w > 0x7fffffff)
         return GN_OUT_OF_RANGE;
     shading->near_w = (uint32_t)near_w;
+    far_w += far_w / (1 << 17) + 1; /* a surface in the far plane is inside: w has 18 good bits */
     shading->far_w = far_w > 0x7fffffff ? 0x7fffffffu : (uint32_t)far_w;
     return GN_OK;
-}
-
-void gn_make_falloff(gn_context *context)
-{
-    gn_scaled tangent = gn_scale(context->light.tan_half, -24);
-    gn_scaled squared = gn_scaled_multiply(tangent, tangent);
-    for (int32_t i = 0; i < GN_FALLOFF_STEPS + 2; i++) {
-        gn_scaled s = gn_scaled_add(gn_scale(1, 0), gn_scaled_multiply(squared, gn_scale(2 * i, -6)));
-        uint64_t inverse = (uint64_t)gn_scaled_round(gn_scaled_divide(gn_scale(1, 60), s), 0);
-        context->falloff[i] = (uint16_t)(gn_square_root(inverse) >> 15);
-    }
 }

@@ -25,15 +25,45 @@ gn_status gn_world_position(const gn_object *object, uint32_t vertex, int32_t wo
     return status;
 }
 
-int gn_mirrors(const gn_model *model)
+int gn_dot_sign(const int64_t n[3], const int32_t v[3])
 {
-    int64_t m[3][3];
-    for (int i = 0; i < 3; i++)
+    int64_t high = 0, low = 0;
+    for (int i = 0; i < 3; i++) {
+        high += gn_floor_shift_64(n[i], 31) * v[i];
+        low += (n[i] & 0x7fffffff) * v[i];
+    }
+    high += gn_floor_shift_64(low, 31);
+    return high < 0 ? -1 : high > 0 || (low & 0x7fffffff) ? 1 : 0;
+}
+
+void gn_cross(int64_t n[3], const int32_t a[3], const int32_t b[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int j = i < 2 ? i + 1 : 0, k = 3 - i - j;
+        n[i] = gn_multiply(a[j], b[k]) - gn_multiply(a[k], b[j]);
+    }
+}
+
+gn_status gn_check_model(const gn_model *model)
+{
+    if (model->shift > 62)
+        return GN_OUT_OF_RANGE;
+    for (int i = 0; i < 3; i++) {
+        if (model->t[i] < -(1 << 30) || model->t[i] > (1 << 30))
+            return GN_OUT_OF_RANGE;
         for (int j = 0; j < 3; j++)
-            m[i][j] = gn_floor_shift(model->m[i][j], 11); /* 20 bits: the determinant fits 64 */
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
-           0;
+            if (model->m[i][j] < -(1 << 30) || model->m[i][j] > (1 << 30))
+                return GN_OUT_OF_RANGE;
+    }
+    return GN_OK;
+}
+
+/* Does the model turn front into back? The sign of its determinant, exactly. */
+static int mirrors(const gn_model *model)
+{
+    int64_t n[3];
+    gn_cross(n, model->m[0], model->m[1]);
+    return gn_dot_sign(n, model->m[2]) < 0;
 }
 
 gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *largest_w, int *inside)
@@ -45,7 +75,9 @@ gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *
         const gn_object *object = &context->scene->objects[i];
         gn_object_state *state = &context->objects[i];
         gn_vertex *vertex = context->vertices + state->first_vertex;
-        state->mirrored = (uint8_t)(object->model && gn_mirrors(object->model));
+        if (object->model && gn_check_model(object->model) != GN_OK)
+            return GN_OUT_OF_RANGE;
+        state->mirrored = (uint8_t)(object->model && mirrors(object->model));
         state->clips = 0;
         for (uint32_t v = 0; v < object->mesh->vertex_count; v++, vertex++) {
             int32_t world[3];
@@ -56,8 +88,8 @@ gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *
             if (status != GN_OK)
                 return status;
             gn_view_project(view, &place, vertex);
-            if (place.c[2] > *largest_w)
-                *largest_w = place.c[2];
+            if (!view->affine && place.c[2] > *largest_w)
+                *largest_w = (int32_t)place.c[2];
             if (vertex->depth == 0)
                 state->clips = 1;
             if (vertex->depth == 0 || vertex->x < 0 || vertex->y < 0 || vertex->x >= right || vertex->y >= bottom)
@@ -76,19 +108,30 @@ void gn_triangle_places(const gn_view *view, const gn_object *object, const uint
     }
 }
 
+static int in_world(const int32_t p[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (p[i] < -GN_WORLD_MAX || p[i] > GN_WORLD_MAX)
+            return 0;
+    return 1;
+}
+
 gn_status gn_fit_light(gn_light *light, const gn_scene *scene)
 {
-    if (!light || !scene)
+    if (!light || !scene || (scene->object_count && !scene->objects))
         return GN_BAD_ARGUMENT;
     const gn_q2_30 *axis[3] = {light->right, light->up, light->forward};
     int64_t low[3] = {INT64_MAX, INT64_MAX, INT64_MAX}, high[3] = {INT64_MIN, INT64_MIN, INT64_MIN};
     for (uint32_t i = 0; i < scene->object_count; i++) {
         const gn_object *object = &scene->objects[i];
+        if (!object->mesh || (object->mesh->vertex_count && !object->mesh->vertices))
+            return GN_BAD_ARGUMENT;
+        if (object->model && gn_check_model(object->model) != GN_OK)
+            return GN_OUT_OF_RANGE;
         for (uint32_t v = 0; v < object->mesh->vertex_count; v++) {
             int32_t world[3];
-            gn_status status = gn_world_position(object, v, world);
-            if (status != GN_OK)
-                return status;
+            if (gn_world_position(object, v, world) != GN_OK || !in_world(world))
+                return GN_OUT_OF_RANGE;
             for (int a = 0; a < 3; a++) {
                 int64_t d = gn_multiply(axis[a][0], world[0]) + gn_multiply(axis[a][1], world[1]) +
                             gn_multiply(axis[a][2], world[2]);

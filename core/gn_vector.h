@@ -1,6 +1,7 @@
 /* GN_VECTOR 1: inner loops of 16 texels or 8 pixels at a time with GNU vector extensions, on hosts with AVX2 or wider.
- * Changes speed only: tests/core/vector_test.c holds every loop against its scalar twin. Rows are padded so that a
- * vector may read and write back unchanged what lies beyond the right end of a span, always in the same row. */
+ * Changes speed only: tests/core/vector_test.c holds every loop against its scalar twin. Rows of the
+ * map are padded, and so is the end of a region's planes: a vector may read and write back unchanged what lies beyond
+ * the right end of a span, always in memory of the same worker. */
 #ifndef GN_VECTOR_H
 #define GN_VECTOR_H
 

@@ -42,6 +42,13 @@ static int in_range(const int32_t v[3], int32_t limit)
     return 1;
 }
 
+/* Axes as gn_look_at makes them: components of unit vectors, a few units of rounding allowed. */
+static int are_axes(const gn_q2_30 right[3], const gn_q2_30 up[3], const gn_q2_30 forward[3])
+{
+    int32_t limit = (1 << 30) + 16;
+    return in_range(right, limit) && in_range(up, limit) && in_range(forward, limit);
+}
+
 static int32_t largest_component(const int32_t v[3])
 {
     int32_t largest = 0;
@@ -71,7 +78,7 @@ static gn_status make_projective(gn_view *view, const int32_t eye[3], const gn_q
 {
     gn_scaled one = gn_scale(1, 0);
     if (!in_range(eye, GN_EYE_MAX) || near_depth <= 0 || far_depth <= near_depth || far_depth > (1 << 28) ||
-        (far_depth >> 20) > near_depth)
+        ((far_depth - 1) >> 20) >= near_depth)
         return GN_OUT_OF_RANGE;
     /* |P - eye| <= sqrt(3) (2^24 + |eye|): scale so that it stays below 2^30. */
     int32_t reach = GN_WORLD_MAX + largest_component(eye), bits = 29 - 1;
@@ -108,6 +115,8 @@ gn_status gn_make_camera_view(gn_view *view, const gn_camera *camera, int32_t wi
 {
     set_size(view, width, height);
     view->post_projective_depth = 0;
+    if (!are_axes(camera->right, camera->up, camera->forward))
+        return GN_OUT_OF_RANGE;
     if (camera->projection == GN_PERSPECTIVE) {
         if (camera->tan_half < (1u << 16) || camera->tan_half > (64u << 24))
             return GN_OUT_OF_RANGE;
@@ -120,7 +129,7 @@ gn_status gn_make_camera_view(gn_view *view, const gn_camera *camera, int32_t wi
         return GN_BAD_ARGUMENT;
     int32_t near_depth = camera->near_depth, far_depth = camera->far_depth;
     if (!in_range(camera->eye, GN_EYE_MAX) || camera->half_height < 1 || camera->half_height > (1 << 26) ||
-        near_depth < -(1 << 28) || far_depth > (1 << 28) || far_depth - near_depth < 64)
+        near_depth < -(1 << 28) || far_depth > (1 << 28) || far_depth < -(1 << 28) + 64 || near_depth > far_depth - 64)
         return GN_OUT_OF_RANGE;
     view->affine = 1;
     /* Q = 2^30 (far - w) / (far - near), within [2^10, 2^30]: greater is nearer, and 0 is kept for clipping. */
@@ -143,6 +152,8 @@ gn_status gn_make_camera_view(gn_view *view, const gn_camera *camera, int32_t wi
 gn_status gn_make_light_view(gn_view *view, const gn_light *light, int32_t width, int32_t height)
 {
     set_size(view, width, height);
+    if (!are_axes(light->right, light->up, light->forward))
+        return GN_OUT_OF_RANGE;
     if (light->kind == GN_SPOT) {
         if (light->tan_half < (1u << 16) || light->tan_half > (64u << 24))
             return GN_OUT_OF_RANGE;
@@ -186,30 +197,25 @@ gn_status gn_make_light_view(gn_view *view, const gn_light *light, int32_t width
 
 gn_status gn_view_place(const gn_view *view, const int32_t world[3], gn_place *place)
 {
-    int64_t c[3];
     for (int i = 0; i < 3; i++)
-        c[i] = gn_apply_row(&view->row[i], world);
-    if (view->affine) {
-        int64_t limit = 1 << 30;
-        c[2] += view->near_w;
-        if (c[0] < -limit || c[0] > limit || c[1] < -limit || c[1] > limit || c[2] < -4 * limit || c[2] > 8 * limit)
+        place->c[i] = gn_apply_row(&view->row[i], world);
+    if (!view->affine)
+        return GN_OK;
+    int64_t limit = (int64_t)1 << 44;
+    place->c[2] += view->near_w;
+    for (int i = 0; i < 3; i++)
+        if (place->c[i] < -limit || place->c[i] > limit)
             return GN_OUT_OF_RANGE;
-        c[2] = c[2] < -2 * limit ? -2 * limit : c[2] > 2 * limit - 1 ? 2 * limit - 1 : c[2];
-    }
-    for (int i = 0; i < 3; i++)
-        place->c[i] = (int32_t)c[i];
     return GN_OK;
 }
 
 /* Outside what is projected without clipping? */
 static int outside(const gn_view *view, const gn_place *place)
 {
-    int32_t x = place->c[0], y = place->c[1], w = place->c[2];
+    int64_t x = place->c[0], y = place->c[1], w = place->c[2];
     if (w < view->near_w || w > view->far_w)
         return 1;
-    if (view->affine)
-        return x < -GN_MAX_COORDINATE || x > GN_MAX_COORDINATE || y < -GN_MAX_COORDINATE || y > GN_MAX_COORDINATE;
-    int64_t reach = gn_multiply(view->guard, w);
+    int64_t reach = view->affine ? GN_MAX_COORDINATE : gn_multiply(view->guard, (int32_t)w);
     return x < -reach || x > reach || y < -reach || y > reach;
 }
 
@@ -223,16 +229,16 @@ GN_INLINE int32_t project(int32_t v, uint32_t r, unsigned k, int32_t half, int32
 void gn_view_project_inside(const gn_view *view, const gn_place *place, gn_vertex *vertex)
 {
     if (view->affine) {
-        vertex->x = view->centre_x + place->c[0];
-        vertex->y = view->centre_y + place->c[1];
+        vertex->x = view->centre_x + (int32_t)place->c[0];
+        vertex->y = view->centre_y + (int32_t)place->c[1];
         vertex->depth = (uint32_t)place->c[2];
         return;
     }
     uint32_t w = (uint32_t)place->c[2];
     unsigned k = gn_leading_zeros(w);
     uint32_t r = gn_reciprocal_exact(w << k) >> 1;
-    vertex->x = project(place->c[0], r, k, view->half_width, view->centre_x);
-    vertex->y = project(place->c[1], r, k, view->half_height, view->centre_y);
+    vertex->x = project((int32_t)place->c[0], r, k, view->half_width, view->centre_x);
+    vertex->y = project((int32_t)place->c[1], r, k, view->half_height, view->centre_y);
     uint32_t q = (uint32_t)(gn_multiply_u((uint32_t)view->near_w, r) >> (32 - k));
     vertex->depth = q;
     if (view->post_projective_depth)

@@ -46,12 +46,13 @@ GN_INLINE int64_t gn_apply_row(const gn_row *row, const int32_t p[3])
     return gn_floor_shift_64(sum, row->shift);
 }
 
-/* The place of a world position before division and clipping: affine x, y, depth, or X, Y, W; |.| <= 2^31. */
+/* The place of a world position before division and clipping: affine x, y, depth, |.| <= 2^44; or X, Y, W, |.| <= 2^30.
+ */
 typedef struct gn_place {
-    int32_t c[3];
+    int64_t c[3];
 } gn_place;
 
-/* GN_OUT_OF_RANGE where an affine view magnifies the position beyond 2^30. */
+/* GN_OUT_OF_RANGE where an affine view magnifies the position beyond 2^44. */
 gn_status gn_view_place(const gn_view *view, const int32_t world[3], gn_place *place);
 
 /* Project; depth 0 where the place is outside the near and far planes or the guard band. */

@@ -2,7 +2,7 @@
  *
  * Q is about 1/w, affine over a triangle and greater where nearer: it is the depth buffer itself, and all that shading
  * needs to find the point in space (gn_shade.c). The greater Q wins; at equal Q the lower triangle identifier: the
- * result does not depend on the order of triangles.
+ * result does not depend on the order in which a region meets its triangles.
  *
  * A region looks only at the triangles in its bins (gn_bins.c). Memory: 8 bytes a pixel of the region and worker. */
 #include "gn_clip.h"
@@ -113,6 +113,7 @@ static GN_NOINLINE void draw_clipped(const gn_context *context, target *t, const
     const gn_vertex *v = polygon.v;
     const gn_vertex *r1 = &v[polygon.reference], *r2 = r1 + 1;
     gn_make_q_plane(&t->plane, &v[0], polygon.area > 0 ? r1 : r2, polygon.area > 0 ? r2 : r1, polygon.area);
+    gn_fit_q_plane(&t->plane, &polygon, context->shading.nothing + 1);
     for (int32_t i = 1; i + 1 < polygon.count; i++) {
         int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
         if (area == 0 || (area > 0) != (polygon.area > 0))

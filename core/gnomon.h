@@ -41,7 +41,8 @@ extern "C" {
 #define GN_BITS_VERSION 1
 
 /* Bits of a stored depth, 16 or 32: trades map memory against depth resolution. 16-bit layers are the upper half of
- * the 32-bit ones, bit for bit. The library and its users must be compiled with the same value. */
+ * the 32-bit ones, bit for bit (but for GN_MIXED, which marks the lowest bit). The library and its users must be
+ * compiled with the same value. */
 #ifndef GN_DEPTH_BITS
 #define GN_DEPTH_BITS 16
 #endif
@@ -53,7 +54,8 @@ typedef uint32_t gn_depth;
 #error "GN_DEPTH_BITS must be 16 or 32"
 #endif
 
-/* 1: count triangles, texels and pixels (a few additions a span); 0: gn_get_statistics reports zeros, at no cost. */
+/* 1: count triangles, texels and pixels (a few additions a span); 0: gn_get_statistics reports zeros but for map_bytes,
+ * at no cost. */
 #ifndef GN_STATISTICS
 #define GN_STATISTICS 0
 #endif
@@ -138,8 +140,10 @@ typedef struct gn_camera {
     gn_q2_30 right[3], up[3], forward[3]; /* orthonormal; right x up = -forward */
     gn_q8_24 tan_half;                    /* perspective: tan(fovy/2), 2^-8 to 64 */
     int32_t half_height;                  /* orthographic: half the height of the image, world units, 1 to 2^26 */
-    int32_t near_depth,
-        far_depth; /* along forward, 0 < near < far <= 2^28; they clip (orthographic: near may be < 0) */
+    /* Planes along forward; they clip. Perspective: 0 < near < far <= 2^28, far / near <= 2^20, and near at least
+     * 16 / min(1, tan x, tan y) units with the eye within GN_WORLD_MAX, more in proportion to a farther eye.
+     * Orthographic: -2^28 <= near, near + 64 <= far <= 2^28. */
+    int32_t near_depth, far_depth;
 } gn_camera;
 
 typedef enum gn_light_kind { GN_DIRECTIONAL = 0, GN_SPOT = 1 } gn_light_kind;
@@ -153,7 +157,7 @@ typedef struct gn_light {
     /* spot: a square frustum */
     int32_t position[3];
     gn_q8_24 tan_half;             /* tan(fovy/2), 2^-8 to 64 */
-    int32_t near_depth, far_depth; /* 0 < near < far <= 2^28, far / near < 2^20; they clip */
+    int32_t near_depth, far_depth; /* as in gn_camera, perspective, and far / (far - near) < 2^10 */
 } gn_light;
 
 /* Set eye and axes of a camera that looks from eye to target. Touches nothing else of *camera.
@@ -161,10 +165,11 @@ typedef struct gn_light {
  * GN_OUT_OF_RANGE: eye equals target, up is parallel to the view, or a coordinate is too large. */
 gn_status gn_look_at(gn_camera *camera, const int32_t eye[3], const int32_t target[3], const int32_t up[3]);
 
-/* Make the camera perspective. fovy: full vertical angle, 1/2 to 178 degrees. */
+/* Make the camera perspective. fovy: full vertical angle, 1/2 to 178 degrees; near and far as in gn_camera.
+ * GN_OUT_OF_RANGE: an angle or depth outside its range. */
 gn_status gn_perspective(gn_camera *camera, gn_angle fovy, int32_t near_depth, int32_t far_depth);
 
-/* Make the camera orthographic. */
+/* Make the camera orthographic; ranges as in gn_camera. GN_OUT_OF_RANGE: a number outside its range. */
 gn_status gn_orthographic(gn_camera *camera, int32_t half_height, int32_t near_depth, int32_t far_depth);
 
 /* Make a directional light. direction: the way light travels, any length, |.| <= GN_EYE_MAX; up: 0 for the default,
@@ -172,10 +177,13 @@ gn_status gn_orthographic(gn_camera *camera, int32_t half_height, int32_t near_d
 gn_status gn_directional_light(gn_light *light, const int32_t direction[3], const int32_t up[3]);
 
 /* Fit the box of a directional light to all vertices of the scene: width = height = 1.02 x the larger extent in u and
- * v about the centre, depth 1.02 x the extent in z. A firmware whose casters move may set a larger box itself. */
+ * v about the centre, depth 1.02 x the extent in z. A firmware whose casters move may set a larger box itself; points
+ * outside the box are lit. Reads every vertex. GN_OUT_OF_RANGE: a vertex beyond GN_WORLD_MAX or a bad model;
+ * GN_BAD_ARGUMENT: null pointers. */
 gn_status gn_fit_light(gn_light *light, const gn_scene *scene);
 
-/* Make a spot light. Up as for gn_directional_light. fovy: full angle, 1/2 to 178 degrees. */
+/* Make a spot light. Up as for gn_directional_light. fovy: full angle, 1/2 to 178 degrees.
+ * GN_OUT_OF_RANGE: a coordinate, angle or depth outside its range, or target equal to position. */
 gn_status gn_spot_light(gn_light *light, const int32_t position[3], const int32_t target[3], const int32_t up[3],
                         gn_angle fovy, int32_t near_depth, int32_t far_depth);
 
@@ -261,11 +269,14 @@ gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings
 
 /* ---- light pass ------------------------------------------------------------------------------------------------ */
 
-/* Render the shadow map. It stays valid for any number of camera passes. */
+/* Render the shadow map. It stays valid for any number of camera passes.
+ * GN_OUT_OF_RANGE: the light or a model is outside its ranges, a vertex beyond GN_WORLD_MAX, or the scene more than
+ * 8192 times as deep as the light's box. */
 gn_status gn_light_pass(gn_context *context, const gn_light *light);
 
 /* The same in steps: begin; then for every region in any order, on any worker (0 .. workers-1, each used by one thread
- * at a time): layers, then resolve. Regions are independent jobs; all must be done before gn_camera_begin. */
+ * at a time): layers, then resolve. Regions are independent jobs; all must be done before gn_camera_begin, which ends
+ * the light pass. GN_NOT_READY: out of this order; GN_BAD_ARGUMENT: no such region or worker. */
 gn_status gn_light_begin(gn_context *context, const gn_light *light);
 gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker);
 gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker);
@@ -287,12 +298,13 @@ typedef struct gn_pixels {
 /* Called once a region. Return 0 to go on, anything else to stop the frame (GN_STOPPED). */
 typedef int (*gn_flush)(void *user, const gn_pixels *pixels);
 
-/* Render the image, region by region, left to right and top to bottom, each into the same buffer of the context. */
+/* Render the image, region by region, left to right and top to bottom, each into the same buffer of the context.
+ * GN_NOT_READY: no complete light pass; GN_OUT_OF_RANGE: as for gn_light_pass, of the camera; GN_STOPPED. */
 gn_status gn_camera_pass(gn_context *context, const gn_camera *camera, gn_flush flush, void *user);
 
 /* The same in steps, for an RTOS or double-buffered DMA: begin once; then each region, in any order, on any worker,
- * into colour and mask buffers of the caller (plan.region_width x plan.region_height pixels; 0: not wanted). Describes
- * what was rendered in *pixels. */
+ * into colour and mask buffers of the caller (plan.region_width x plan.region_height pixels; 0: not wanted; RGB565:
+ * aligned to 2 bytes, else GN_MISALIGNED). Describes what was rendered in *pixels. */
 gn_status gn_camera_begin(gn_context *context, const gn_camera *camera);
 gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker, void *colour, uint8_t *mask,
                            gn_pixels *pixels);
