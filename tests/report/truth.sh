@@ -1,0 +1,41 @@
+#!/bin/sh
+# Make truth masks: which pixel is truly lit, by exact ray casting.
+#
+#     tests/report/truth.sh PEER SCENE... -o FOLDER
+#
+# PEER is a program that knows `PEER SCENE --dump MASK.pgm` and shares nothing with gnomon (peer_embree casts rays with
+# Embree). Masks are 0 shadowed, 254 lit, 255 no surface; FOLDER/NAME.pgm belongs to NAME.scene.
+set -eu
+
+usage() {
+    echo "usage: tests/report/truth.sh PEER SCENE... -o FOLDER" >&2
+    exit 2
+}
+
+peer=${1:-}
+[ $# -ge 4 ] || usage
+shift
+scenes=
+folder=
+while [ $# -gt 0 ]; do
+    case $1 in
+    -o)
+        [ $# -eq 2 ] || usage
+        folder=$2
+        shift
+        ;;
+    *.scene) scenes="$scenes
+$1" ;;
+    *) usage ;;
+    esac
+    shift
+done
+if [ -z "$folder" ] || [ -z "$scenes" ]; then usage; fi
+
+mkdir -p "$folder"
+echo "$scenes" | while read -r scene; do
+    [ -n "$scene" ] || continue
+    mask=$folder/$(basename "$scene" .scene).pgm
+    "$peer" "$scene" --frames 1 --dump "$mask.new" >/dev/null </dev/null
+    mv "$mask.new" "$mask"
+done
