@@ -244,7 +244,8 @@ sizes: $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) $(BUILD)/cortex-m4-16/footpri
 
 CORE_TESTS := $(wildcard tests/core/*.c)
 HOST_TESTS := $(wildcard tests/host/*.c)
-SHELL_TESTS := $(wildcard tests/*/*.sh)
+# tests/report: tables for docs/, made by hand with the peers.
+SHELL_TESTS := $(filter-out tests/report/%,$(wildcard tests/*/*.sh))
 TEST_BUILDS := $(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),$(b)-$(d)))
 TEST_PROGRAMS := $(foreach b,$(TEST_BUILDS),$(patsubst %.c,$(BUILD)/$(b)/%,$(CORE_TESTS) $(HOST_TESTS)))
 

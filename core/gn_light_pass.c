@@ -28,7 +28,7 @@ typedef struct target {
     gn_depth_plane plane;
     uint32_t open; /* 1: mark as open (mixed) */
     insertion how;
-#if GN_VECTOR
+#if GN_VECTOR_16
     gn_u32x16 lanes; /* the plane's step to each of 16 texels */
 #endif
     GN_TALLY(gn_tally *tally;)
@@ -40,7 +40,7 @@ GN_INLINE uint32_t start_depth(const target *t, int32_t row, int32_t left)
     return t->plane.base + (uint32_t)row * t->plane.dy + (uint32_t)left * t->plane.dx;
 }
 
-#if !GN_VECTOR
+#if !GN_VECTOR_16
 GN_INLINE void insert_first(gn_depth *z1, gn_depth v)
 {
     if (v < *z1)
@@ -157,7 +157,7 @@ GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t 
         insert_span(t, row * t->stride + left, right - left, start_depth(t, row, left), how);                          \
     }
 SPAN(span_first, FIRST)
-#if GN_VECTOR
+#if GN_VECTOR_16
 SPAN(span_two, TWO)
 SPAN(span_twice, TWICE)
 SPAN(span_marked, MARKED)
@@ -199,7 +199,7 @@ GN_INLINE void span_any(const void *state, int32_t row, int32_t left, int32_t ri
 /* One clockwise triangle whose plane is known. */
 typedef void walk(const target *t, const gn_rows *rows, const gn_window *window);
 
-#if GN_VECTOR
+#if GN_VECTOR_16
 #define WALK(name, span, tiny)                                                                                         \
     static GN_NOINLINE void name(const target *t, const gn_rows *rows, const gn_window *window)                        \
     {                                                                                                                  \
@@ -255,7 +255,7 @@ static insertion choose_insertion(const gn_context *context, const gn_mesh *mesh
 
 static void set_lanes(target *t)
 {
-#if GN_VECTOR
+#if GN_VECTOR_16
     static const gn_u32x16 lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     t->lanes = lane * t->plane.dx;
 #else

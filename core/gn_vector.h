@@ -15,6 +15,16 @@
 #endif
 #endif
 
+/* GN_VECTOR_16 1: the light pass, too, which works on 16 lanes of 32 bits: on halves of them it is slower than without.
+ */
+#ifndef GN_VECTOR_16
+#if GN_VECTOR && defined __AVX512BW__
+#define GN_VECTOR_16 1
+#else
+#define GN_VECTOR_16 0
+#endif
+#endif
+
 #if GN_VECTOR
 #define GN_ROW_PADDING 16 /* texels or pixels */
 

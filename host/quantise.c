@@ -194,6 +194,27 @@ static int rounded_planes(const source *s, long line, double near_depth, double 
                  near_depth, far_depth, ldexp(1, -s->scale));
 }
 
+/* What the core asks of a perspective near plane: at least 64 view units (docs/number-formats.md), and far / near <=
+ * 2^20. least_tangent: the smaller one of the two half openings. */
+static int check_perspective(const source *s, long line, const int32_t eye[3], double least_tangent, int32_t near_depth,
+                             int32_t far_depth)
+{
+    int32_t reach = 0;
+    for (int i = 0; i < 3; i++)
+        reach = abs(eye[i]) > reach ? abs(eye[i]) : reach;
+    double unit = ldexp(fmin(1, least_tangent), 28 - (int)floor(log2((double)reach + GN_WORLD_MAX)));
+    double least = fmax(64.5 / unit, far_depth / 1048576.0);
+    if (near_depth >= least)
+        return 0;
+    return WRONG(s, line, "near %g is too small for a scene of this size and far %g; expected at least %g",
+                 ldexp(near_depth, -s->scale), ldexp(far_depth, -s->scale), ldexp(ceil(least), -s->scale));
+}
+
+static double half_tangent(double fovy)
+{
+    return tan(fovy * (3.14159265358979323846 / 360));
+}
+
 static gn_angle rounded_angle(double degrees)
 {
     return (gn_angle)llround(degrees / 360 * 4294967296.0);
@@ -257,6 +278,10 @@ static int pack_camera(packed_scene *packed, const source *s)
     rounded_direction(up, camera->up);
     if (rounded_planes(s, camera->line, camera->near_depth, camera->far_depth, &near_depth, &far_depth))
         return -1;
+    double tangent = half_tangent(camera->fovy), aspect = (double)s->scene->width / s->scene->height;
+    if (!camera->orthographic &&
+        check_perspective(s, camera->line, eye, tangent * fmin(1, aspect), near_depth, far_depth))
+        return -1;
     gn_status status = gn_look_at(&packed->camera, eye, target, up);
     if (status != GN_OK)
         return WRONG(
@@ -285,6 +310,8 @@ static int pack_light(packed_scene *packed, const source *s)
         rounded_point(s, position, light->position);
         rounded_point(s, target, light->target);
         if (rounded_planes(s, light->line, light->near_depth, light->far_depth, &near_depth, &far_depth))
+            return -1;
+        if (check_perspective(s, light->line, position, half_tangent(light->fovy), near_depth, far_depth))
             return -1;
         status = gn_spot_light(&packed->light, position, target, light->has_up ? up : 0, rounded_angle(light->fovy),
                                near_depth, far_depth);
