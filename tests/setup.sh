@@ -35,28 +35,28 @@ can() {
     command -v "$1"
 }
 
-# Compile and link an empty program: a cross compiler may be there without its libc.
+# Compile and link an empty program: a compiler may be there without its libc.
 builds_programs() {
     echo 'int main(void) { return 0; }' | "$1" -x c - -o /dev/null
 }
 
-need "gcc libc6-dev" "compiles everything" can cc
+need "gcc libc6-dev" "compiles everything" builds_programs cc
 need "pkg-config" "finds OpenImageIO" can pkg-config
 need "g++" "compiles the bridge to OpenImageIO" can g++
 need "libopenimageio-dev" "reads and writes PNG, EXR and other pictures" pkg-config --exists OpenImageIO
 
 if [ "$job" = test ]; then
     need "perl" "brings prove, which runs the tests" can prove
-    need "gcc libc6-dev" "one of the compilers whose results are compared" can gcc
-    need "clang" "another one" can clang
+    need "gcc libc6-dev" "compiles for comparison with clang" can gcc
+    need "clang" "compiles for comparison with gcc" can clang
     need "gcc-arm-none-eabi" "compiles for Cortex-M4 and Cortex-M0" can arm-none-eabi-gcc
-    need "qemu-system-arm" "runs them" can qemu-system-arm
+    need "qemu-system-arm" "runs programs for Cortex-M" can qemu-system-arm
     need "gcc-riscv64-unknown-elf" "compiles for rv32imc and rv32i" can riscv64-unknown-elf-gcc
-    need "qemu-system-misc" "runs them" can qemu-system-riscv32
+    need "qemu-system-misc" "runs programs for RISC-V" can qemu-system-riscv32
     need "gcc-i686-linux-gnu libc6-dev-i386-cross" "compiles for 32-bit x86" builds_programs i686-linux-gnu-gcc
     need "gcc-powerpc-linux-gnu libc6-dev-powerpc-cross" "compiles for a big-endian machine" \
         builds_programs powerpc-linux-gnu-gcc
-    need "qemu-user" "runs both" can qemu-ppc
+    need "qemu-user" "runs programs for 32-bit x86 and PowerPC" can qemu-ppc
     need "cppcheck" "checks the sources" can cppcheck
 fi
 
@@ -92,7 +92,13 @@ install() {
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends $missing
 }
 
+# Exact names: where no list knows g++, apt takes it for a pattern, which other packages match.
+known() {
+    for package in $missing; do
+        apt-cache show "?exact-name($package)" >/dev/null 2>&1 || return 1
+    done
+}
+
 # A fresh machine has no package lists, an old one has stale ones: the first shows before, the second after.
-# shellcheck disable=SC2086
-apt-cache show $missing >/dev/null 2>&1 || update || exit 1
+known || update || exit 1
 install || { update && install; } || exit 1

@@ -1,9 +1,10 @@
-/* Depth and Q planes of random triangles against exact rationals in 128 bits: gradients, values at every kind of covered
- * centre, the rule for all but edge-on triangles, and the definition bit for bit. Vertices lie up to 2^20 from the
- * centre of a map of 4096, the worst that either pass may hand over. Cases: 300000, or GNOMON_CASES. */
-#include "gn_raster.h"
-#include "gn_view.h"
+/* Depth and Q planes of random triangles against exact rationals in 128 bits: gradients, values at every kind of
+ * covered centre, the rule for all but edge-on triangles, and the definition bit for bit. Vertices lie up to 2^20 from
+ * the centre of a map of 4096, the worst that either pass may hand over. Cases: 300000, or GNOMON_CASES. */
+#include "gn_clip.h"
 #include "tap.h"
+
+#include <string.h>
 
 __extension__ typedef __int128 exact;
 __extension__ typedef unsigned __int128 exact_u;
@@ -85,7 +86,6 @@ static triangle random_triangle(int64_t low, int64_t high)
     } while (t.area == 0);
     return t;
 }
-
 
 /* Keep the leftmost, rightmost, highest and lowest covered centres and some between: a plane errs most there. */
 enum { SAMPLES = 64 };
@@ -283,14 +283,14 @@ static void q_planes_keep_their_bounds(uint64_t cases)
                 farthest = t.v[i].depth < farthest ? t.v[i].depth : farthest;
             flat++;
             if ((plane.dx || plane.dy || plane.base != (uint64_t)farthest << 32) && failures++ < 5) {
-                note("case %llu, steep: got base 0x%llx; expected 0x%lx00000000 and no gradient",
-                     (unsigned long long)n, (unsigned long long)plane.base, (unsigned long)farthest);
+                note("case %llu, steep: got base 0x%llx; expected 0x%lx00000000 and no gradient", (unsigned long long)n,
+                     (unsigned long long)plane.base, (unsigned long)farthest);
                 show(&t);
             }
             continue;
         }
-        uint64_t base = (uint64_t)(((exact)t.v[0].depth << 32) + (128 - (exact)t.v[0].x) * d[0] +
-                                   (128 - (exact)t.v[0].y) * d[1]);
+        uint64_t base =
+            (uint64_t)(((exact)t.v[0].depth << 32) + (128 - (exact)t.v[0].x) * d[0] + (128 - (exact)t.v[0].y) * d[1]);
         if ((plane.dx != (uint64_t)(256 * d[0]) || plane.dy != (uint64_t)(256 * d[1]) || plane.base != base) &&
             failures++ < 5) {
             note("case %llu: got 0x%llx 0x%llx 0x%llx; by definition 0x%llx 0x%llx 0x%llx", (unsigned long long)n,
@@ -342,6 +342,85 @@ static void q_planes_keep_their_bounds(uint64_t cases)
          worst_gradient, worst_q, worst_units, (unsigned long long)below);
 }
 
+/* ---- clipped triangles ----------------------------------------------------------------------------------------- */
+
+typedef struct range {
+    gn_depth_plane plane;
+    uint64_t fragments, wrapped;
+} range;
+
+GN_INLINE void check_range(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    range *r = *(range *const *)state;
+    int32_t ends[2] = {left, right - 1};
+    for (int i = 0; i < 2; i++) {
+        uint32_t z = r->plane.base + (uint32_t)ends[i] * r->plane.dx + (uint32_t)row * r->plane.dy;
+        r->fragments++;
+        r->wrapped += z < GN_DEPTH_GUARD / 2 || z > 0xffffffffu - GN_DEPTH_GUARD / 2;
+    }
+}
+
+/* A clipped triangle keeps one plane, and its new corners, snapped to 1/256 pixel, do not lie on it: where it is steep
+ * they are off by more than the guard. All of it must stay within the range. */
+static void planes_of_clipped_triangles_do_not_wrap(uint64_t cases)
+{
+    range r, *state = &r;
+    uint64_t polygons = 0, moved = 0;
+    unsigned failures = 0;
+    memset(&r, 0, sizeof r);
+    for (uint64_t n = 0; n < cases && failures < 5; n++) {
+        gn_light light;
+        gn_view view;
+        gn_place corner[3];
+        gn_polygon polygon;
+        int32_t eye[3] = {0, 1 << 16, 0}, target[3] = {0, 0, -1000000};
+        target[0] = (int32_t)between(-1000000, 1000000);
+        target[1] = (int32_t)between(-20000, 70000);
+        int32_t near_depth = (1 << 22) >> between(1, 18), far_depth = (int32_t)between(1 << 21, 1 << 22);
+        near_depth = near_depth < 64 ? 64 : near_depth;
+        memset(&light, 0, sizeof light);
+        gn_status status = gn_spot_light(&light, eye, target, 0, GN_DEGREES(60), near_depth, far_depth + near_depth);
+        if (status == GN_OK)
+            status = gn_make_light_view(&view, &light, 512, 512);
+        for (int i = 0; i < 3 && status == GN_OK; i++) {
+            int32_t p[3] = {(int32_t)between(-8000000, 8000000), (int32_t)between(-4000000, 4000000),
+                            (int32_t)between(-8000000, 2000000)};
+            status = gn_view_place(&view, p, &corner[i]);
+        }
+        if (status != GN_OK) {
+            failures++;
+            note("case %llu: status %d", (unsigned long long)n, (int)status);
+            continue;
+        }
+        gn_clip_triangle(&polygon, &view, corner);
+        if (!polygon.area)
+            continue;
+        const gn_vertex *v = polygon.v, *r1 = &v[polygon.reference], *r2 = r1 + 1;
+        gn_window map = {0, 0, 512, 512};
+        uint64_t wrapped = r.wrapped;
+        polygons++;
+        gn_make_depth_plane(&r.plane, &v[0], polygon.area > 0 ? r1 : r2, polygon.area > 0 ? r2 : r1, polygon.area);
+        uint32_t base = r.plane.base;
+        gn_fit_depth_plane(&r.plane, &polygon);
+        moved += r.plane.base != base;
+        for (int i = 1; i + 1 < polygon.count; i++) {
+            int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
+            gn_rows rows;
+            if (area && (area > 0) == (polygon.area > 0) &&
+                gn_find_rows(&rows, &v[0], area > 0 ? &v[i] : &v[i + 1], area > 0 ? &v[i + 1] : &v[i], &map))
+                gn_walk(&rows, &map, rows.cut, check_range, &state);
+        }
+        if (r.wrapped != wrapped && failures++ < 5)
+            note("case %llu: a triangle clipped to %d corners, gradients %ld, %ld, leaves the range at %llu ends of "
+                 "rows",
+                 (unsigned long long)n, (int)polygon.count, (long)as_signed(r.plane.dx), (long)as_signed(r.plane.dy),
+                 (unsigned long long)(r.wrapped - wrapped));
+    }
+    ok(!failures, "planes of clipped triangles do not wrap, in %llu triangles", (unsigned long long)polygons);
+    ok(polygons > cases / 10 && r.fragments > cases && moved > 0, "%llu of them were moved into the range",
+       (unsigned long long)moved);
+}
+
 /* By hand: a right triangle of 16 pixels, rising by 2^20 of Z a pixel in x, 2^18 in y. */
 static void planes_done_by_hand(void)
 {
@@ -353,15 +432,19 @@ static void planes_done_by_hand(void)
     ok(plane.dx == 2 * dx && plane.dy == 2 * dy && plane.base == 2 * z + dx + dy,
        "a depth plane by hand: gradients are twice Z's, the base is half a pixel in");
     gn_make_q_plane(&q, &a, &b, &c, 4096 * 4096);
-    ok(q.dx == (uint64_t)dx << 32 && q.dy == (uint64_t)dy << 32 && q.base == ((uint64_t)(2 * z + dx + dy) << 31),
-       "a Q plane by hand");
+    /* the reciprocal of a power of two is one unit short, which leaves relative 2^-31 */
+    uint64_t short_x = ((uint64_t)dx << 32) - q.dx, short_y = ((uint64_t)dy << 32) - q.dy;
+    uint64_t short_base = ((uint64_t)(2 * z + dx + dy) << 31) - q.base;
+    ok(short_x <= (uint64_t)dx << 3 && short_y <= (uint64_t)dy << 3 && short_base <= (uint64_t)(dx + dy) << 2,
+       "a Q plane by hand, within 2^-29");
     c.depth = a.depth = b.depth = z;
     gn_make_depth_plane(&plane, &a, &b, &c, 4096 * 4096);
     ok(plane.dx == 0 && plane.dy == 0 && plane.base == 2 * z, "a level plane is exact");
     /* a quarter of the depth range in one texel: 2^30 in units of z, 2^29 of Z */
     gn_vertex e = {0, 0, 1u << 29}, f = {256, 0, 1u << 30}, g = {0, 256, 1u << 29};
     gn_make_depth_plane(&plane, &e, &f, &g, 65536);
-    ok(plane.dx == 0 && plane.dy == 0 && plane.base == 1u << 31, "a gradient of 2^30 is too steep: the farthest vertex");
+    ok(plane.dx == 0 && plane.dy == 0 && plane.base == 1u << 31,
+       "a gradient of 2^30 is too steep: the farthest vertex");
     f.depth -= 2;
     gn_make_depth_plane(&plane, &e, &f, &g, 65536);
     ok(plane.dx == (1u << 30) - 4 && plane.dy == 0, "a gradient of 2^30 - 4 is not");
@@ -373,5 +456,6 @@ int main(int argc, char **argv)
     planes_done_by_hand();
     depth_planes_keep_their_bounds(cases);
     q_planes_keep_their_bounds(cases);
+    planes_of_clipped_triangles_do_not_wrap(cases / 3);
     return tap_done();
 }

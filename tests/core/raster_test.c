@@ -195,8 +195,10 @@ static void make_mesh(mesh *m, int32_t x, int32_t y, int32_t reach, int splits)
         int32_t a = between(0, 1000), b = between(0, 1000 - a);
         if (between(0, 3) == 0)
             b = 1000 - a; /* on an edge, or nearly */
-        int64_t px = old.v[0].x + ((int64_t)a * (old.v[1].x - old.v[0].x) + (int64_t)b * (old.v[2].x - old.v[0].x)) / 1000;
-        int64_t py = old.v[0].y + ((int64_t)a * (old.v[1].y - old.v[0].y) + (int64_t)b * (old.v[2].y - old.v[0].y)) / 1000;
+        int64_t px =
+            old.v[0].x + ((int64_t)a * (old.v[1].x - old.v[0].x) + (int64_t)b * (old.v[2].x - old.v[0].x)) / 1000;
+        int64_t py =
+            old.v[0].y + ((int64_t)a * (old.v[1].y - old.v[0].y) + (int64_t)b * (old.v[2].y - old.v[0].y)) / 1000;
         gn_vertex p = snapped(px, py, half_pixels);
         triangle part[3] = {{{old.v[0], old.v[1], p}}, {{old.v[1], old.v[2], p}}, {{old.v[2], old.v[0], p}}};
         if (area_of(&part[0]) < 0 || area_of(&part[1]) < 0 || area_of(&part[2]) < 0)
@@ -550,7 +552,8 @@ static gn_place beyond_near_and_far(const gn_view *view)
  * opened is closed again. A crack or an overlap along any edge, clipped or not, would show as a count other than 0. */
 static void clipped_closed_meshes_have_no_cracks(uint64_t cases)
 {
-    static const int faces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    static const int faces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                    {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     static clip_counter k;
     uint64_t clipped = 0, pieces = 0, turned = 0, covered = 0;
     unsigned failures = 0;
@@ -619,8 +622,9 @@ static void a_clipped_floor_covers_each_centre_once(uint64_t cases)
         while (m.count < wanted) { /* split strictly inside, mostly near the middle; z is v.y */
             triangle *t = &m.t[between(0, m.count - 1)], old = *t;
             int64_t a = between(1, 998), b = between(1, 999 - (int32_t)a);
-            gn_vertex p = {(int32_t)(old.v[0].x + (a * (old.v[1].x - old.v[0].x) + b * (old.v[2].x - old.v[0].x)) / 1000),
-                           (int32_t)(old.v[0].y + (a * (old.v[1].y - old.v[0].y) + b * (old.v[2].y - old.v[0].y)) / 1000), 0};
+            gn_vertex p = {
+                (int32_t)(old.v[0].x + (a * (old.v[1].x - old.v[0].x) + b * (old.v[2].x - old.v[0].x)) / 1000),
+                (int32_t)(old.v[0].y + (a * (old.v[1].y - old.v[0].y) + b * (old.v[2].y - old.v[0].y)) / 1000), 0};
             triangle part[3] = {{{old.v[0], old.v[1], p}}, {{old.v[1], old.v[2], p}}, {{old.v[2], old.v[0], p}}};
             if (area_of(&part[0]) <= 0 || area_of(&part[1]) <= 0 || area_of(&part[2]) <= 0) {
                 wanted--;

@@ -2,7 +2,7 @@
 # the_smallest_program_draws_the_same_picture_everywhere
 . tests/tap.sh
 
-for target in $TARGET_DEPTHS; do
+for target in $MINIMAL_DEPTHS; do
     check "the smallest program draws the expected picture on $target" \
         diff tests/port/minimal_main.expected "$BUILD/$target/minimal_main.txt"
 done
