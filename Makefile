@@ -35,7 +35,7 @@ STRICT_WARNINGS := $(WARNINGS) -Wconversion -Wcast-qual -Wcast-align
 FLAGS_core := -std=c99 -ffreestanding $(STRICT_WARNINGS)
 FLAGS_port := -std=c99 $(STRICT_WARNINGS) -Icore -Ihost -Iport -I$(BUILD)/golden
 FLAGS_host := -std=c99 -D_XOPEN_SOURCE=700 -pthread $(WARNINGS) -Icore -Ihost
-FLAGS_tests := $(FLAGS_host) -Itests
+FLAGS_tests := $(FLAGS_host) -Itests -Wno-psabi
 
 DEPTHS := 16 32
 

@@ -142,14 +142,18 @@ gn_status gn_fit_light(gn_light *light, const gn_scene *scene)
     }
     int32_t centre2[3], size[3]; /* twice the centre, and 1.02 x the extent, world units */
     for (int a = 0; a < 3; a++) {
-        if (low[a] > high[a])
-            low[a] = high[a] = 0;
+        if (low[a] > high[a]) { /* no vertices: any box, the world's serves every camera */
+            low[a] = -(int64_t)GN_WORLD_MAX * (1 << 30);
+            high[a] = (int64_t)GN_WORLD_MAX * (1 << 30);
+        }
         int64_t extent = gn_floor_shift_64(high[a] - low[a], 30) + 1;
         centre2[a] = (int32_t)gn_floor_shift_64(low[a] + high[a], 30);
         size[a] = (int32_t)((extent * 102 + 50) / 100);
         size[a] = size[a] < 64 ? 64 : size[a];
     }
     int32_t square = size[0] > size[1] ? size[0] : size[1];
+    /* a scene that the light sees flat: deep enough that the eye's depth still fits the formats */
+    size[2] = size[2] < square >> 8 ? square >> 8 : size[2];
     light->box_width = light->box_height = square;
     light->box_depth = size[2];
     light->box_u = gn_floor_shift(centre2[0] - square, 1);

@@ -177,7 +177,8 @@ gn_status gn_orthographic(gn_camera *camera, int32_t half_height, int32_t near_d
 gn_status gn_directional_light(gn_light *light, const int32_t direction[3], const int32_t up[3]);
 
 /* Fit the box of a directional light to all vertices of the scene: width = height = 1.02 x the larger extent in u and
- * v about the centre, depth 1.02 x the extent in z. A firmware whose casters move may set a larger box itself; points
+ * v about the centre, depth 1.02 x the extent in z, at
+ * least 1/256 of the width. A firmware whose casters move may set a larger box itself; points
  * outside the box are lit. Reads every vertex. GN_OUT_OF_RANGE: a vertex beyond GN_WORLD_MAX or a bad model;
  * GN_BAD_ARGUMENT: null pointers. */
 gn_status gn_fit_light(gn_light *light, const gn_scene *scene);
