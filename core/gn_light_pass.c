@@ -196,9 +196,6 @@ GN_INLINE void span_any(const void *state, int32_t row, int32_t left, int32_t ri
 
 /* ---- triangles ------------------------------------------------------------------------------------------------- */
 
-/* One clockwise triangle whose plane is known. */
-typedef void walk(const target *t, const gn_rows *rows, const gn_window *window);
-
 #if GN_VECTOR_16
 #define WALK(name, span, tiny)                                                                                         \
     static GN_NOINLINE void name(const target *t, const gn_rows *rows, const gn_window *window)                        \
@@ -211,9 +208,14 @@ WALK(walk_two, span_two, tiny_two)
 WALK(walk_twice, span_twice, tiny_twice)
 WALK(walk_marked, span_marked, tiny_marked)
 
-static walk *choose_walk(const target *t)
+static void walk_any(const target *t, const gn_rows *rows, const gn_window *window)
 {
-    return t->how == FIRST ? walk_first : t->how == TWO ? walk_two : t->how == TWICE ? walk_twice : walk_marked;
+    if (t->how == TWO)
+        walk_two(t, rows, window);
+    else if (t->how == TWICE)
+        walk_twice(t, rows, window);
+    else
+        walk_marked(t, rows, window);
 }
 #else
 static GN_NOINLINE void walk_any(const target *t, const gn_rows *rows, const gn_window *window)
@@ -227,11 +229,6 @@ static GN_NOINLINE void walk_first(const target *t, const gn_rows *rows, const g
         walk_any(t, rows, window);
     else
         gn_walk(rows, window, 0, span_first, t);
-}
-
-static walk *choose_walk(const target *t)
-{
-    return t->how == FIRST ? walk_first : walk_any;
 }
 #endif
 
@@ -269,15 +266,19 @@ static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const
     set_lanes(t);
 }
 
-GN_INLINE void insert_counted(const target *t, walk *insert, const gn_rows *rows, const gn_window *window)
+/* One clockwise triangle whose plane is set. */
+GN_INLINE void insert(const target *t, const gn_rows *rows, const gn_window *window)
 {
-    insert(t, rows, window);
+    if (t->how == FIRST)
+        walk_first(t, rows, window);
+    else
+        walk_any(t, rows, window);
     GN_TALLY(t->tally->triangles++;)
 }
 
 /* A triangle with a corner beyond the planes or the guard band. */
-static GN_NOINLINE void insert_clipped(const gn_context *context, target *t, walk *insert, const gn_object *object,
-                                       uint32_t triangle, int culled, const gn_window *window)
+static GN_NOINLINE void insert_clipped(const gn_context *context, target *t, const gn_object *object, uint32_t triangle,
+                                       int culled, const gn_window *window)
 {
     uint32_t index[3];
     gn_place corner[3];
@@ -298,7 +299,7 @@ static GN_NOINLINE void insert_clipped(const gn_context *context, target *t, wal
         if (area == 0 || (area > 0) != (polygon.area > 0))
             continue;
         if (gn_find_rows(&rows, &v[0], area > 0 ? &v[i] : &v[i + 1], area > 0 ? &v[i + 1] : &v[i], window))
-            insert_counted(t, insert, &rows, window);
+            insert(t, &rows, window);
     }
 }
 
@@ -310,13 +311,12 @@ static void insert_mesh(const gn_context *context, target *t, uint32_t object_in
     int culled = culled_sign(context, object_index), clips = context->objects[object_index].clips;
     uint32_t count = mesh->triangle_count, flip = culled > 0 ? 0 : 0x80000000u;
     t->how = choose_insertion(context, mesh);
-    walk *insert = choose_walk(t);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t index[3];
         gn_triangle_indices(mesh, i, index);
         const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
         if (clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0)) {
-            insert_clipped(context, t, insert, object, i, culled, window);
+            insert_clipped(context, t, object, i, culled, window);
             continue;
         }
         int64_t area = gn_area(v0, v1, v2);
@@ -334,7 +334,7 @@ static void insert_mesh(const gn_context *context, target *t, uint32_t object_in
         if (!gn_find_rows(&rows, v0, v1, v2, window))
             continue;
         set_plane(t, v0, v1, v2, area);
-        insert_counted(t, insert, &rows, window);
+        insert(t, &rows, window);
     }
 }
 

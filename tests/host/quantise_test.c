@@ -91,11 +91,16 @@ static void ranges(void)
              end);
     ok(quantised(text, mesh) == -1 && strstr(why.text, ":4: ") && strstr(why.text, "expected at most 32"),
        "an_eye_farther_away_is_refused");
-    ok(quantised(HEAD "camera perspective eye 0 5 5 target 0 0 0 up 0 1 0 fovy 40 near 0.000000001 far 1e9\n" SUN
+    ok(quantised(HEAD "camera perspective eye 0 5 5 target 0 0 0 up 0 1 0 fovy 40 near 0.001 far 1e9\n" SUN
                       "mesh in.obj surface open color 1 1 1\n",
                  mesh) == 0 &&
-           packed.camera.near_depth == 1 && packed.camera.far_depth == 1 << 28,
+           packed.camera.near_depth == 16777 && packed.camera.far_depth == 1 << 28,
        "planes_beyond_the_range_are_clamped");
+    ok(quantised(HEAD "camera perspective eye 0 5 5 target 0 0 0 up 0 1 0 fovy 40 near 0.000000001 far 9\n" SUN
+                      "mesh in.obj surface open color 1 1 1\n",
+                 mesh) == -1 &&
+           strstr(why.text, ":4: near") && strstr(why.text, "expected at least"),
+       "a_near_plane_too_near_for_the_formats_is_refused");
     ok(quantised(HEAD "camera orthographic eye 0 5 5 target 0 0 0 up 0 1 0 height 16 near -2 far 90\n" SUN
                       "mesh in.obj surface open color 1 1 1\n",
                  mesh) == 0 &&
