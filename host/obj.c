@@ -108,7 +108,7 @@ static int bad_corner(reader *r, word w)
 static int read_corner(reader *r, word w, uint32_t *vertex)
 {
     const char *at = w.start, *end = w.start + w.length;
-    long reference, index, ignored;
+    long reference, index = 0, ignored;
     if (take_integer(&at, end, &reference))
         return bad_corner(r, w);
     if (resolve(r, "vertex", reference, (long)r->mesh->position_count, &index))
