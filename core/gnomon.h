@@ -98,6 +98,18 @@ typedef struct gn_rgb {
 
 /* ---- the scene (const, may be in flash) ------------------------------------------------------------------------ */
 
+/* An edge and the triangles on it, as half-edges: 3 triangle + corner runs from that corner to the triangle's next one.
+ * half[1]: the other triangle's, with GN_SAME_DIRECTION added where both run the same way (two triangles of opposite
+ * winding); GN_NO_HALF_EDGE where there is none. Every half-edge of a mesh stands in exactly one edge, but those of
+ * triangles with two corners in one place, which may be left out; an edge of more than two triangles is several pairs.
+ * Half-edges are paired by the places of their ends, not by the numbers of the vertices. */
+typedef struct gn_mesh_edge {
+    uint32_t half[2];
+} gn_mesh_edge;
+
+#define GN_NO_HALF_EDGE 0xffffffffu
+#define GN_SAME_DIRECTION 0x80000000u
+
 /* Triangles over shared vertices. closed: counter-clockwise from outside, every edge used equally often in both
  * directions; may be culled in the light pass. Not closed: two-sided, never culled. */
 typedef struct gn_mesh {
@@ -105,8 +117,10 @@ typedef struct gn_mesh {
     const void *indices;          /* three a triangle, uint16_t or uint32_t, aligned to their size */
     uint32_t vertex_count;
     uint32_t triangle_count;
-    uint8_t index_size; /* 2 or 4 bytes */
-    uint8_t closed;     /* 0 or 1 */
+    uint8_t index_size;        /* 2 or 4 bytes */
+    uint8_t closed;            /* 0 or 1 */
+    const gn_mesh_edge *edges; /* for shadow volumes, made by `gnomon pack --edges`; else 0 */
+    uint32_t edge_count;
 } gn_mesh;
 
 /* world = floor((m v + 2^(shift-1)) / 2^shift) + t: |m| <= 2^30, shift 0..62, t in world units. A negative determinant
@@ -201,6 +215,12 @@ gn_q2_30 gn_cosine(gn_angle angle);
 
 /* ---- settings: the choices of docs/design.md ------------------------------------------------------------------- */
 
+/* How a pixel learns whether it is shadowed. */
+typedef enum gn_shadow {
+    GN_SHADOW_MAP = 0, /* gn_light_pass, gn_camera_pass */
+    GN_SHADOW_VOLUMES  /* exact at every sample, no map: gn_volumes_light, gn_volumes_pass; meshes with edges */
+} gn_shadow;
+
 typedef enum gn_cull { GN_CULL_AUTO = 0, GN_CULL_NONE, GN_CULL_BACK, GN_CULL_FRONT } gn_cull;
 typedef enum gn_layers { GN_LAYERS_AUTO = 0, GN_LAYERS_FIRST, GN_LAYERS_TWO } gn_layers;
 
@@ -240,6 +260,7 @@ typedef struct gn_settings {
     uint8_t format;                /* gn_format */
     uint8_t mask;                  /* 1: also deliver masks: 0 shadowed, 254 lit, 255 no surface */
     uint8_t workers;               /* how many regions may be rendered at once, 1 to 64 */
+    uint8_t shadow;                /* gn_shadow; with volumes map sizes, cull, layers, surface and bias say nothing */
     gn_bias bias;                  /* of GN_CONSTANT, GN_DUAL and GN_MIXED */
 } gn_settings;
 
@@ -310,6 +331,19 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera);
 gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker, void *colour, uint8_t *mask,
                            gn_pixels *pixels);
 
+/* ---- shadow volumes (settings.shadow GN_SHADOW_VOLUMES) ---------------------------------------------------------- */
+
+/* In place of the light pass: decide exactly which way every triangle faces, and find the silhouette edges.
+ * GN_UNSUPPORTED: the context was not made for volumes; GN_OUT_OF_RANGE: as for gn_light_pass. */
+gn_status gn_volumes_light(gn_context *context, const gn_light *light);
+
+/* In place of the camera pass and its steps; same arguments and statuses. A pixel is shadowed where the volumes that
+ * triangles cast hold its point (Crow 1977), counted behind the point, so that the camera may stand in shadow. */
+gn_status gn_volumes_pass(gn_context *context, const gn_camera *camera, gn_flush flush, void *user);
+gn_status gn_volumes_begin(gn_context *context, const gn_camera *camera);
+gn_status gn_volumes_region(gn_context *context, uint32_t region, uint32_t worker, void *colour, uint8_t *mask,
+                            gn_pixels *pixels);
+
 /* ---- statistics (GN_STATISTICS 1) ------------------------------------------------------------------------------ */
 
 typedef struct gn_statistics {
@@ -318,7 +352,10 @@ typedef struct gn_statistics {
     uint64_t camera_triangles; /* set up in the camera pass, each region counted */
     uint64_t camera_fragments; /* covered by them */
     uint64_t pixels_shaded;    /* pixels that see a surface */
-    uint64_t pixels_tested;    /* of them: looked up in the map */
+    uint64_t pixels_tested;    /* of them: looked up in the map, or counted in volumes */
+    uint64_t silhouette_edges; /* of the latest gn_volumes_light */
+    uint64_t volume_faces;     /* set up in the camera pass, each region counted */
+    uint64_t volume_fragments; /* covered by them; over camera_fragments: the overdraw factor O of Sen et al. */
     uint64_t map_bytes;
 } gn_statistics;
 
