@@ -39,7 +39,7 @@ static int32_t bin_of_rows(const gn_context *context, int32_t top, int32_t botto
 }
 
 /* -1: not on the screen. */
-static int32_t bin_of_triangle(const gn_context *context, uint32_t object_index, uint32_t triangle)
+static int32_t bin_of_triangle(const gn_context *context, const gn_view *view, uint32_t object_index, uint32_t triangle)
 {
     const gn_object *object = &context->scene->objects[object_index];
     const gn_object_state *state = &context->objects[object_index];
@@ -51,8 +51,8 @@ static int32_t bin_of_triangle(const gn_context *context, uint32_t object_index,
     if (state->clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0)) {
         gn_place corner[3];
         gn_polygon polygon;
-        gn_triangle_places(&context->camera_view, object, index, corner);
-        gn_clip_triangle(&polygon, &context->camera_view, corner);
+        gn_triangle_places(view, object, index, corner);
+        gn_clip_triangle(&polygon, view, corner);
         if (polygon.area == 0)
             return -1;
         int32_t top = polygon.v[0].y, bottom = top;
@@ -70,7 +70,7 @@ static int32_t bin_of_triangle(const gn_context *context, uint32_t object_index,
 }
 
 /* Counting sort: count, sum up, then place from the back, so that each bin holds its triangles in order. */
-gn_status gn_make_bins(gn_context *context)
+gn_status gn_make_bins(gn_context *context, const gn_view *view)
 {
     const gn_scene *scene = context->scene;
     uint32_t *first = context->bin_first, sum = 0;
@@ -80,7 +80,7 @@ gn_status gn_make_bins(gn_context *context)
         first[i] = 0;
     for (uint32_t o = 0; o < scene->object_count; o++) {
         for (uint32_t i = 0; i < scene->objects[o].mesh->triangle_count; i++) {
-            int32_t bin = bin_of_triangle(context, o, i);
+            int32_t bin = bin_of_triangle(context, view, o, i);
             if (bin >= 0)
                 first[bin]++;
         }
@@ -91,7 +91,7 @@ gn_status gn_make_bins(gn_context *context)
     }
     for (uint32_t o = scene->object_count; o-- > 0;) {
         for (uint32_t i = scene->objects[o].mesh->triangle_count; i-- > 0;) {
-            int32_t bin = bin_of_triangle(context, o, i);
+            int32_t bin = bin_of_triangle(context, view, o, i);
             if (bin >= 0)
                 context->bin_items[--first[bin]] = o << context->triangle_bits | i;
         }

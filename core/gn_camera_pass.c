@@ -5,6 +5,8 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
 {
     if (!context || !camera)
         return GN_BAD_ARGUMENT;
+    if (context->volumes)
+        return GN_UNSUPPORTED;
     if (context->phase == GN_PHASE_NONE)
         return GN_NOT_READY;
     for (uint32_t i = 0; i < context->plan.light_regions; i++)
@@ -22,7 +24,7 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
     if (status == GN_OK)
         status = gn_make_shading(context, largest_w);
     if (status == GN_OK)
-        status = gn_make_bins(context);
+        status = gn_make_bins(context, &context->camera_view);
     if (status != GN_OK)
         return status;
     for (uint32_t i = 0; i < context->settings.workers; i++)
@@ -34,44 +36,19 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
 gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker, void *colour, uint8_t *mask,
                            gn_pixels *pixels)
 {
-    if (!context || !pixels || worker >= context->settings.workers || region >= context->plan.camera_regions)
-        return GN_BAD_ARGUMENT;
-    if (context->phase != GN_PHASE_CAMERA)
-        return GN_NOT_READY;
-    const gn_settings *settings = &context->settings;
-    uint32_t columns = ((uint32_t)settings->width + context->plan.region_width - 1) / context->plan.region_width;
-    uint32_t x = region % columns * context->plan.region_width, y = region / columns * context->plan.region_height;
-    uint32_t width = settings->width - x, height = settings->height - y;
-    width = width > context->plan.region_width ? context->plan.region_width : width;
-    height = height > context->plan.region_height ? context->plan.region_height : height;
-
+    gn_window window;
+    gn_status status = gn_find_region(context, region, worker, GN_PHASE_CAMERA, colour, mask, pixels, &window);
+    if (status != GN_OK)
+        return status;
     gn_worker *w = &context->workers[worker];
-    gn_window window = {(int32_t)x, (int32_t)y, (int32_t)(x + width), (int32_t)(y + height)};
-    uint32_t pixel_bytes = settings->format == GN_RGB888 ? 3 : 2;
-    if (settings->format == GN_NO_COLOUR)
+    uint32_t width = pixels->width;
+    if (context->settings.format == GN_NO_COLOUR)
         colour = 0;
-    if (settings->format == GN_RGB565 && (uintptr_t)colour % 2)
-        return GN_MISALIGNED;
     gn_rasterise_region(context, w, &window);
-    for (uint32_t row = 0; row < height; row++) {
-        uint32_t *q = w->q + row * width, tested = 0;
-        gn_shade_row(context, q, (int32_t)x, (int32_t)(y + row), (int32_t)width);
-        uint32_t seen = gn_colour_row(context, w, q, w->triangle + row * width, (int32_t)width,
-                                      colour ? (uint8_t *)colour + (size_t)row * width * pixel_bytes : 0,
-                                      mask ? mask + row * width : 0, &tested);
-#if GN_STATISTICS
-        w->statistics.pixels_shaded += seen;
-        w->statistics.pixels_tested += tested;
-#else
-        (void)seen;
-#endif
+    for (uint32_t row = 0; row < pixels->height; row++) {
+        gn_shade_row(context, w->q + row * width, window.column0, window.row0 + (int32_t)row, (int32_t)width);
+        gn_colour_region_row(context, w, colour, mask, row, width);
     }
-    pixels->x = (uint16_t)x;
-    pixels->y = (uint16_t)y;
-    pixels->width = (uint16_t)width;
-    pixels->height = (uint16_t)height;
-    pixels->colour = colour;
-    pixels->mask = mask;
     return GN_OK;
 }
 

@@ -1,11 +1,10 @@
 #include "gn_clip.h"
 
-enum { PLANES = 6 };
-
-/* Distance to a plane, positive inside. Planes: near, far, then the guard band's four sides. |.| < 2^45. */
-static int64_t distance(const gn_view *view, const gn_place *p, int plane)
+int64_t gn_plane_distance(const gn_view *view, const gn_place *p, int plane)
 {
     int64_t w = p->c[2];
+    if (plane < 2 && view->endless && (view->affine || plane == 1))
+        return 1;
     if (plane == 0)
         return w - view->near_w;
     if (plane == 1)
@@ -23,8 +22,7 @@ static int precedes(const gn_place *a, const gn_place *b)
     return 0;
 }
 
-/* The point between a and b at distance 0. da and db have opposite signs or one is 0; not both. */
-static gn_place crossing(const gn_view *view, const gn_place *a, const gn_place *b, int64_t da, int64_t db, int plane)
+gn_place gn_plane_crossing(const gn_view *view, const gn_place *a, const gn_place *b, int64_t da, int64_t db, int plane)
 {
     if (precedes(b, a)) {
         const gn_place *p = a;
@@ -55,12 +53,12 @@ static int32_t clip_at(const gn_view *view, const gn_place *in, int32_t count, g
     int32_t n = 0;
     for (int32_t i = 0; i < count; i++) {
         const gn_place *a = &in[i], *b = &in[i + 1 < count ? i + 1 : 0];
-        int64_t da = distance(view, a, plane), db = distance(view, b, plane);
+        int64_t da = gn_plane_distance(view, a, plane), db = gn_plane_distance(view, b, plane);
         /* A convex polygon gains at most one vertex a plane; rounding must not make it more. */
         if (da >= 0 && n < GN_CLIP_VERTICES)
             out[n++] = *a;
         if (((da > 0 && db < 0) || (da < 0 && db > 0)) && n < GN_CLIP_VERTICES)
-            out[n++] = crossing(view, a, b, da, db, plane);
+            out[n++] = gn_plane_crossing(view, a, b, da, db, plane);
     }
     return n;
 }
@@ -74,7 +72,7 @@ void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place c
     polygon->reference = 1;
     for (int i = 0; i < 3; i++)
         buffer[0][i] = corner[i];
-    for (int plane = 0; plane < PLANES && count >= 3; plane++, from ^= 1)
+    for (int plane = 0; plane < GN_CLIP_PLANES && count >= 3; plane++, from ^= 1)
         count = clip_at(view, buffer[from], count, buffer[from ^ 1], plane);
     if (count < 3)
         return;

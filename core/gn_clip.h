@@ -9,7 +9,8 @@
 
 #include "gn_view.h"
 
-#define GN_CLIP_VERTICES 9 /* three, and one for each of six planes */
+#define GN_CLIP_PLANES 6   /* near, far, then the guard band's four sides */
+#define GN_CLIP_VERTICES 9 /* three, and one for each of the planes */
 
 typedef struct gn_polygon {
     gn_vertex v[GN_CLIP_VERTICES];
@@ -17,6 +18,13 @@ typedef struct gn_polygon {
     int32_t reference; /* the fan's piece (v[0], v[reference], v[reference + 1]) of largest area */
     int64_t area;      /* of that piece; 0: nothing to draw */
 } gn_polygon;
+
+/* Distance to a plane, positive inside; |.| < 2^45. */
+int64_t gn_plane_distance(const gn_view *view, const gn_place *p, int plane);
+
+/* The point between a and b at distance 0. da and db have opposite signs or one is 0; not both. */
+gn_place gn_plane_crossing(const gn_view *view, const gn_place *a, const gn_place *b, int64_t da, int64_t db,
+                           int plane);
 
 void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place corner[3]);
 

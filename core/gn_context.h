@@ -19,9 +19,10 @@
 #endif
 
 typedef struct gn_object_state {
-    uint32_t first_vertex; /* of the object in the vertex array */
-    uint8_t mirrored;      /* the model matrix turns front into back */
-    uint8_t clips;         /* some vertex cannot be projected in the current pass */
+    uint32_t first_vertex;   /* of the object in the vertex array */
+    uint32_t first_triangle; /* of the object in the whole scene */
+    uint8_t mirrored;        /* the model matrix turns front into back */
+    uint8_t clips;           /* some vertex cannot be projected in the current pass */
 } gn_object_state;
 
 /* value(x, y) = a + b's product with W: a(x, y) + floor(W b(x, y) / 2^32), each affine in the pixel, modulo 2^32. With
@@ -42,7 +43,14 @@ typedef struct gn_shading {
     uint32_t near_w, far_w;  /* spot: in the unit of coordinate[2] */
 } gn_shading;
 
-typedef enum gn_phase { GN_PHASE_NONE, GN_PHASE_LIGHT, GN_PHASE_CAMERA_FAILED, GN_PHASE_CAMERA } gn_phase;
+typedef enum gn_phase {
+    GN_PHASE_NONE,
+    GN_PHASE_LIGHT,
+    GN_PHASE_CAMERA_FAILED,
+    GN_PHASE_CAMERA,
+    GN_PHASE_VOLUMES_LIGHT, /* silhouettes are listed */
+    GN_PHASE_VOLUMES
+} gn_phase;
 typedef enum gn_progress { GN_REGION_UNTOUCHED, GN_REGION_LAYERS, GN_REGION_DONE } gn_progress;
 
 typedef struct gn_colour_pair {
@@ -55,7 +63,7 @@ typedef struct gn_colour_pair {
 
 typedef struct gn_worker {
     gn_depth *second; /* light pass: second layer of a light region */
-    uint32_t *q;      /* camera pass: Q, later what gn_shade_row leaves */
+    uint32_t *q;      /* camera pass: Q, later what the shadow test leaves */
     uint32_t *triangle;
     gn_colour_pair *colours;
     gn_statistics statistics;
@@ -71,7 +79,8 @@ struct gn_context {
     uint32_t map_stride; /* texels from row to row */
     uint8_t *shared;     /* where the two passes take turns */
     gn_vertex *vertices;
-    uint32_t triangle_bits; /* identifier = object << triangle_bits | triangle */
+    uint32_t triangle_bits;     /* identifier = object << triangle_bits | triangle */
+    struct gn_volumes *volumes; /* 0 with shadow maps */
 
     gn_light light;
     gn_view light_view;
@@ -131,9 +140,12 @@ uint32_t gn_make_bias(const gn_context *context);
 
 /* gn_shading.c, gn_shade.c: constants of a pair of camera and light, and the shadow test of one row. Afterwards q[i] is
  * negative as a signed number where the pixel is shadowed; where it is lit, with a spot light near / distance, Q2.30.
+ * Without a map: gn_set_farthest makes what visibility needs, and a spot light's gn_falloff_row leaves every pixel lit.
  */
 gn_status gn_make_shading(gn_context *context, int32_t largest_w);
+void gn_set_farthest(gn_context *context, int32_t largest_w);
 void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
+void gn_falloff_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
 
 /* gn_lambert.c, gn_colour.c: the colours of a triangle; the colours and the mask of one row. Returns the number of
  * pixels that see a surface; *tested: of these, turned to the light. colour or mask may be 0. */
@@ -142,9 +154,15 @@ void gn_clear_colours(gn_worker *worker);
 uint32_t gn_colour_row(const gn_context *context, gn_worker *worker, const uint32_t *lit, const uint32_t *triangle,
                        int32_t count, void *colour, uint8_t *mask, uint32_t *tested);
 
+/* gn_region.c: check the arguments of a region's step and say where it lies; colours and mask of one of its rows. */
+gn_status gn_find_region(const gn_context *context, uint32_t region, uint32_t worker, gn_phase phase, void *colour,
+                         uint8_t *mask, gn_pixels *pixels, gn_window *window);
+void gn_colour_region_row(const gn_context *context, gn_worker *worker, void *colour, uint8_t *mask, uint32_t row,
+                          uint32_t width);
+
 /* gn_visibility.c, gn_bins.c: depth and triangle for a region, from the triangles in its bins. */
 void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window *window);
-gn_status gn_make_bins(gn_context *context);
+gn_status gn_make_bins(gn_context *context, const gn_view *view);
 void gn_count_bins(const gn_plan *plan, const gn_settings *settings, uint32_t *bands, uint32_t *levels, uint32_t *bins);
 
 #endif

@@ -405,6 +405,8 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
 {
     if (!context || !light)
         return GN_BAD_ARGUMENT;
+    if (context->volumes)
+        return GN_UNSUPPORTED;
     context->phase = GN_PHASE_NONE;
     gn_lay_out_light(context, &context->plan, &context->settings);
     context->light = *light;

@@ -1,5 +1,5 @@
 /* Planning: what a scene needs, checked and laid out before anything is rendered. */
-#include "gn_context.h"
+#include "gn_volumes.h"
 
 gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_size)
 {
@@ -22,7 +22,7 @@ static gn_status check_settings(const gn_settings *s)
         s->workers > 64 || s->region_width > GN_MAX_SIZE || s->region_height > GN_MAX_SIZE || s->map_rows > GN_MAX_SIZE)
         return GN_OUT_OF_RANGE;
     if (s->cull > GN_CULL_FRONT || s->layers > GN_LAYERS_TWO || s->surface > GN_MIXED || s->format > GN_RGB565 ||
-        s->mask > 1 || s->bias.unit > GN_BIAS_RANGE)
+        s->mask > 1 || s->bias.unit > GN_BIAS_RANGE || s->shadow > GN_SHADOW_VOLUMES)
         return GN_BAD_ARGUMENT;
     if (s->bias.unit == GN_BIAS_WORLD && s->bias.value > (1u << 28))
         return GN_OUT_OF_RANGE;
@@ -60,12 +60,18 @@ static uint32_t bits_for(uint32_t count)
     return bits;
 }
 
-/* Count and check the scene; *closed: whether all its meshes are, *bits: of a triangle number. */
-static gn_status check_scene(const gn_scene *scene, gn_plan *plan, int *closed, uint32_t *bits)
+/* Whether all meshes are closed, and the bits of a triangle's and an edge's number. */
+typedef struct counts {
+    int closed;
+    uint32_t triangle_bits, edge_bits;
+} counts;
+
+/* Count and check the scene. */
+static gn_status check_scene(const gn_scene *scene, gn_plan *plan, counts *c)
 {
-    uint64_t triangles = 0, vertices = 0;
-    uint32_t most = 1;
-    *closed = 1;
+    uint64_t triangles = 0, vertices = 0, edges = 0;
+    uint32_t most = 1, most_edges = 1;
+    c->closed = 1;
     if (scene->object_count && !scene->objects)
         return GN_BAD_ARGUMENT;
     for (uint32_t i = 0; i < scene->object_count; i++) {
@@ -80,17 +86,22 @@ static gn_status check_scene(const gn_scene *scene, gn_plan *plan, int *closed, 
             return status;
         triangles += object->mesh->triangle_count;
         vertices += object->mesh->vertex_count;
+        edges += object->mesh->edge_count;
         if (object->mesh->triangle_count > most)
             most = object->mesh->triangle_count;
+        if (object->mesh->edge_count > most_edges)
+            most_edges = object->mesh->edge_count;
         if (!object->mesh->closed)
-            *closed = 0;
+            c->closed = 0;
     }
-    *bits = bits_for(most);
+    c->triangle_bits = bits_for(most);
+    c->edge_bits = bits_for(most_edges);
     /* the highest identifier is kept for "no triangle" */
-    if (bits_for(scene->object_count + 1) + *bits > 32 || triangles >= (1u << 28) || vertices >= (1u << 28))
+    if (bits_for(scene->object_count + 1) + c->triangle_bits > 32 || triangles >= (1u << 28) || vertices >= (1u << 28))
         return GN_TOO_MANY;
     plan->triangles = (uint32_t)triangles;
     plan->vertices = (uint32_t)vertices;
+    plan->edges = (uint32_t)edges;
     return GN_OK;
 }
 
@@ -115,6 +126,15 @@ static gn_status choose_layers(gn_plan *plan, const gn_settings *s, int all_clos
     return GN_OK;
 }
 
+/* Shadow volumes need every mesh's edges, and a number for each. */
+static gn_status check_volumes(const gn_scene *scene, const counts *c)
+{
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        if (scene->objects[i].mesh->triangle_count && !scene->objects[i].mesh->edges)
+            return GN_UNSUPPORTED;
+    return bits_for(scene->object_count) + c->edge_bits > 32 ? GN_TOO_MANY : GN_OK;
+}
+
 /* Sizes are summed in 64 bits: on a 32-bit machine a plan may exceed the address space. */
 static uint64_t align_up(uint64_t bytes)
 {
@@ -135,24 +155,61 @@ static uint32_t map_stride(const gn_settings *settings)
     return settings->map_width + GN_ROW_PADDING;
 }
 
+/* What shadow volumes keep between the passes. */
+static uint64_t lay_out_volumes(gn_context *context, uint64_t from, const gn_plan *plan, const gn_settings *settings)
+{
+    uint8_t *base = (uint8_t *)context;
+    uint64_t used = from;
+    gn_volumes *volumes = take(base, &used, sizeof *volumes);
+    gn_volumes_worker *workers = take(base, &used, (uint64_t)settings->workers * sizeof *workers);
+    uint8_t *facings = take(base, &used, ((uint64_t)plan->triangles + 3) / 4);
+    gn_silhouette *silhouettes = take(base, &used, (uint64_t)plan->edges * sizeof *silhouettes);
+    if (context) {
+        gn_volumes empty = {0};
+        *volumes = empty;
+        volumes->workers = workers;
+        volumes->facings = facings;
+        volumes->silhouettes = silhouettes;
+        context->volumes = volumes;
+    }
+    for (uint32_t i = 0; i < settings->workers; i++) {
+        uint64_t pixels = (uint64_t)plan->region_width * plan->region_height;
+        int64_t *point = take(base, &used, pixels * sizeof *point);
+        uint16_t *count = take(base, &used, pixels * sizeof *count);
+        gn_seen_plane *planes = take(base, &used, GN_COLOUR_CACHE * sizeof *planes);
+        if (context) {
+            workers[i].point = point;
+            workers[i].count = count;
+            workers[i].planes = planes;
+        }
+    }
+    return used - from;
+}
+
 /* Head of the block: what stays between the passes. Returns its size. */
 static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const gn_settings *settings,
-                             uint32_t light_regions)
+                             const gn_plan *plan)
 {
+    int volumes = settings->shadow == GN_SHADOW_VOLUMES;
     uint8_t *base = (uint8_t *)context;
     uint64_t used = align_up(sizeof(gn_context));
     gn_object_state *objects = take(base, &used, (uint64_t)scene->object_count * sizeof *objects);
     gn_worker *workers = take(base, &used, (uint64_t)settings->workers * sizeof *workers);
-    uint8_t *progress = take(base, &used, light_regions);
-    gn_depth *map = take(base, &used, (uint64_t)map_stride(settings) * settings->map_height * sizeof *map);
+    uint8_t *progress = take(base, &used, plan->light_regions);
+    gn_depth *map =
+        take(base, &used, volumes ? 0 : (uint64_t)map_stride(settings) * settings->map_height * sizeof *map);
     if (context) {
         context->objects = objects;
         context->workers = workers;
         context->progress = progress;
         context->map = map;
         context->map_stride = map_stride(settings);
-        context->shared = base + (size_t)used;
+        context->volumes = 0;
     }
+    if (volumes)
+        used += lay_out_volumes(context, used, plan, settings);
+    if (context)
+        context->shared = base + (size_t)used;
     return used;
 }
 
@@ -211,13 +268,13 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
     if (!plan || !scene || !settings)
         return GN_BAD_ARGUMENT;
     gn_plan p = {0};
-    int all_closed;
-    uint32_t bits;
+    counts c;
     gn_status status = check_settings(settings);
     if (status == GN_OK)
-        status = check_scene(scene, &p, &all_closed, &bits);
+        status = check_scene(scene, &p, &c);
     if (status == GN_OK)
-        status = choose_layers(&p, settings, all_closed);
+        status =
+            settings->shadow == GN_SHADOW_VOLUMES ? check_volumes(scene, &c) : choose_layers(&p, settings, c.closed);
     if (status != GN_OK)
         return status;
     /* Regions of about 2560 pixels: 20 KiB a worker. Whole rows keep spans long. */
@@ -232,11 +289,15 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
     p.map_rows = (uint16_t)rows;
     p.light_regions = (settings->map_height + rows - 1) / rows;
     p.camera_regions = (settings->width + width - 1) / width * ((settings->height + height - 1) / height);
-    uint64_t head = lay_out_head(0, scene, settings, p.light_regions);
-    uint64_t light = head + gn_lay_out_light(0, &p, settings), camera = head + gn_lay_out_camera(0, &p, settings);
+    if (settings->shadow == GN_SHADOW_VOLUMES)
+        p.light_regions = 0;
+    uint64_t head = lay_out_head(0, scene, settings, &p), light = head, camera = head;
+    light += settings->shadow == GN_SHADOW_VOLUMES ? 0 : gn_lay_out_light(0, &p, settings);
+    camera += gn_lay_out_camera(0, &p, settings);
     if (light > SIZE_MAX || camera > SIZE_MAX)
         return GN_TOO_MANY;
-    p.map_bytes = (size_t)map_stride(settings) * settings->map_height * sizeof(gn_depth);
+    if (settings->shadow == GN_SHADOW_MAP)
+        p.map_bytes = (size_t)map_stride(settings) * settings->map_height * sizeof(gn_depth);
     p.light_bytes = (size_t)light;
     p.camera_bytes = (size_t)camera;
     p.bytes = p.light_bytes > p.camera_bytes ? p.light_bytes : p.camera_bytes;
@@ -262,15 +323,19 @@ gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings
     c->scene = scene;
     c->settings = *settings;
     c->plan = plan;
-    lay_out_head(c, scene, settings, plan.light_regions);
+    lay_out_head(c, scene, settings, &plan);
     gn_plan counted;
-    int closed;
-    (void)check_scene(scene, &counted, &closed, &c->triangle_bits);
-    uint32_t first = 0;
+    counts found;
+    (void)check_scene(scene, &counted, &found);
+    c->triangle_bits = found.triangle_bits;
+    if (c->volumes)
+        c->volumes->edge_bits = found.edge_bits;
+    uint32_t first_vertex = 0, first_triangle = 0;
     for (uint32_t i = 0; i < scene->object_count; i++) {
-        gn_object_state state = {first, 0, 0};
+        gn_object_state state = {first_vertex, first_triangle, 0, 0};
         c->objects[i] = state;
-        first += scene->objects[i].mesh->vertex_count;
+        first_vertex += scene->objects[i].mesh->vertex_count;
+        first_triangle += scene->objects[i].mesh->triangle_count;
     }
     for (uint32_t i = 0; i < settings->workers; i++) {
         gn_worker worker = {0};
@@ -291,7 +356,10 @@ void gn_get_statistics(const gn_context *context, gn_statistics *statistics)
         sum.camera_fragments += s->camera_fragments;
         sum.pixels_shaded += s->pixels_shaded;
         sum.pixels_tested += s->pixels_tested;
+        sum.volume_faces += s->volume_faces;
+        sum.volume_fragments += s->volume_fragments;
     }
+    sum.silhouette_edges = context->volumes ? context->volumes->silhouette_count : 0;
     sum.map_bytes = context->plan.map_bytes;
     *statistics = sum;
 }

@@ -159,6 +159,17 @@ static uint32_t over_distance(uint32_t nearness, uint32_t u, uint32_t v, uint32_
     return (uint32_t)(gn_multiply_u(nearness, inverse) >> (21 - even / 2));
 }
 
+/* u, v and near / w in 2^-30, from (X + W) / 2, (Y + W) / 2 and W; returns the last. */
+GN_INLINE uint32_t divide_place(const gn_shading *s, uint32_t *left, uint32_t *top, uint32_t w)
+{
+    unsigned k = gn_leading_zeros(w);
+    uint32_t r = gn_reciprocal(w << k);
+    *left = (uint32_t)(gn_multiply_u(*left << k, r) >> 32);
+    *top = (uint32_t)(gn_multiply_u(*top << k, r) >> 32);
+    uint32_t nearness = (uint32_t)(gn_multiply_u(s->near_w << k, r) >> 32);
+    return nearness > 1u << 30 ? 1u << 30 : nearness;
+}
+
 static void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count)
 {
     const gn_shading *s = &context->shading;
@@ -170,13 +181,7 @@ static void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int32_
         q[i] = 0x80000000u;
         if (distance - s->near_w > s->far_w - s->near_w || left >= distance || top >= distance)
             continue; /* outside the frustum: unlit */
-        unsigned k = gn_leading_zeros(distance);
-        uint32_t r = gn_reciprocal(distance << k);
-        /* u, v and near / w in 2^-30 */
-        left = (uint32_t)(gn_multiply_u(left << k, r) >> 32);
-        top = (uint32_t)(gn_multiply_u(top << k, r) >> 32);
-        uint32_t nearness = (uint32_t)(gn_multiply_u(s->near_w << k, r) >> 32);
-        nearness = nearness > 1u << 30 ? 1u << 30 : nearness;
+        uint32_t nearness = divide_place(s, &left, &top, distance);
         uint32_t column = (uint32_t)(gn_multiply_u(left, width << 2) >> 32);
         uint32_t row = (uint32_t)(gn_multiply_u(top, height << 2) >> 32);
         column = column >= width ? width - 1 : column;
@@ -201,4 +206,21 @@ void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, 
         shade_trusted(context, q, x, y, count);
     else
         shade_directional(context, q, x, y, count);
+}
+
+void gn_falloff_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count)
+{
+    const gn_shading *s = &context->shading;
+    if (!context->camera_view.affine)
+        row_of_w(q, count, s->w_shift);
+    runner u = start(&s->coordinate[0], x, y), v = start(&s->coordinate[1], x, y), d = start(&s->coordinate[2], x, y);
+    for (int32_t i = 0; i < count; i++) {
+        uint32_t w = q[i], left = next(&u, w), top = next(&v, w), distance = next(&d, w);
+        /* what rounding moves out of the frustum, and pixels without a surface */
+        distance = distance - s->near_w > s->far_w - s->near_w ? s->near_w : distance;
+        left = left > distance ? distance : left;
+        top = top > distance ? distance : top;
+        uint32_t nearness = divide_place(s, &left, &top, distance);
+        q[i] = over_distance(nearness, left, top, context->tan_squared);
+    }
 }

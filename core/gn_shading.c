@@ -120,6 +120,11 @@ static gn_scaled make_w_unit(gn_context *context, int32_t largest_w)
     return gn_scaled_divide(gn_scale(view->near_w, shading->w_shift - 31), view->unit);
 }
 
+void gn_set_farthest(gn_context *context, int32_t largest_w)
+{
+    (void)make_w_unit(context, largest_w);
+}
+
 gn_status gn_make_shading(gn_context *context, int32_t largest_w)
 {
     const gn_view *light = &context->light_view;

@@ -66,6 +66,7 @@ static void set_size(gn_view *view, int32_t width, int32_t height)
     view->half_height = 128 * height;
     view->centre_x = 128 * width;
     view->centre_y = 128 * height;
+    view->endless = 0;
     view->guard = GN_MAX_COORDINATE / (128 * larger);
     if (view->guard > 7)
         view->guard = 7;

@@ -27,6 +27,7 @@ typedef struct gn_view {
     int32_t centre_x, centre_y;
     /* projective: */
     uint8_t affine, post_projective_depth;
+    uint8_t endless;                 /* no far plane; affine: no near plane either. Clipping alone asks */
     int32_t half_width, half_height; /* 128 pixels: 1/256 pixel at the border */
     int32_t near_w, far_w;           /* view units */
     int32_t guard;                   /* |X| <= guard W is projected, the rest clipped: 2 to 7 */

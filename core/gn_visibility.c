@@ -5,8 +5,8 @@
  * result does not depend on the order in which a region meets its triangles.
  *
  * A region looks only at the triangles in its bins (gn_bins.c). Memory: 8 bytes a pixel of the region and worker. */
+#include "gn_bins.h"
 #include "gn_clip.h"
-#include "gn_context.h"
 #include "gn_tally.h"
 
 typedef struct target {
@@ -158,27 +158,16 @@ static void clear(uint32_t *plane, uint32_t count, uint32_t value)
         *plane++ = value;
 }
 
-static void draw_all(const gn_context *context, target *t, const gn_window *window)
-{
-    for (uint32_t o = 0; o < context->scene->object_count; o++)
-        for (uint32_t i = 0; i < context->scene->objects[o].mesh->triangle_count; i++)
-            draw_triangle(context, t, o, i, window);
-}
+typedef struct visitor {
+    const gn_context *context;
+    const gn_window *window;
+    target *t;
+} visitor;
 
-/* Two neighbouring bins a level. */
-static void draw_bins(const gn_context *context, target *t, const gn_window *window)
+GN_INLINE void visit(void *state, uint32_t object, uint32_t triangle)
 {
-    uint32_t band = (uint32_t)window->row0 / context->plan.region_height, first_bin = 0;
-    uint32_t mask = ((uint32_t)1 << context->triangle_bits) - 1;
-    for (uint32_t level = 0; level < context->bin_levels; level++) {
-        uint32_t bin = band >> level, from = context->bin_first[first_bin + (bin ? bin - 1 : 0)];
-        uint32_t to = context->bin_first[first_bin + bin + 1];
-        for (uint32_t i = from; i < to; i++) {
-            uint32_t identifier = context->bin_items[i];
-            draw_triangle(context, t, identifier >> context->triangle_bits, identifier & mask, window);
-        }
-        first_bin += ((context->bands - 1) >> level) + 1;
-    }
+    const visitor *v = state;
+    draw_triangle(v->context, v->t, object, triangle, v->window);
 }
 
 void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window *window)
@@ -193,10 +182,8 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
     clear(t.q, count, context->shading.nothing);
     clear(t.triangle, count, GN_NO_TRIANGLE);
     GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
-    if (context->bin_count)
-        draw_bins(context, &t, window);
-    else
-        draw_all(context, &t, window);
+    visitor v = {context, window, &t};
+    gn_visit_region(context, window, visit, &v);
     GN_TALLY(worker->statistics.camera_triangles += tally.triangles;)
     GN_TALLY(worker->statistics.camera_fragments += gn_tally_centres(&tally);)
 }

@@ -273,6 +273,7 @@ typedef struct gn_plan {
     size_t light_bytes;           /* needed during the light pass, map included */
     size_t camera_bytes;          /* needed during the camera pass, map included */
     uint32_t triangles, vertices; /* of all objects; a mesh used twice counts twice */
+    uint32_t edges;               /* the same; 0 where meshes have none */
     uint32_t light_regions, camera_regions;
     uint16_t region_width, region_height, map_rows; /* as chosen */
     uint8_t cull, layers;                           /* as chosen: never AUTO */

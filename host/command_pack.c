@@ -9,7 +9,7 @@
 
 const char pack_summary[] = "turn a scene into a .gno file, or into a C header for firmware";
 
-enum { OUTPUT_HEAD = RENDER_OPTION_COUNT, OUTPUT, VERBOSE, HELP, OPTION_COUNT };
+enum { OUTPUT_HEAD = RENDER_OPTION_COUNT, OUTPUT, EDGES, VERBOSE, HELP, OPTION_COUNT };
 
 static const option table[OPTION_COUNT] = {
     RENDER_OPTIONS,
@@ -17,6 +17,9 @@ static const option table[OPTION_COUNT] = {
     {"-o", "FILE",
      "FILE.gno: one block of bytes (layout: host/pack.h);\n"
      "NAME.h: C arrays with NAME_scene, NAME_camera, NAME_light, NAME_settings"},
+    {"--edges", 0,
+     "with the edges that shadow volumes need (8 bytes each, about 12 a triangle);\n"
+     "always with --method volumes, else left out"},
     {"--verbose", 0, "notices about meshes on standard error"},
     {"--help", 0, "this text"},
 };
@@ -28,6 +31,15 @@ static void help(void)
          "  gnomon pack lshape.scene -o lshape.h --method second-depth --size 320x240 --map 128\n");
     options_help(table, OPTION_COUNT, stdout);
     puts("\nExit status: 0 done, 2 bad usage or input (then nothing is written).");
+}
+
+/* What was asked for alone: edges that a .gno file brings take flash where nothing reads them. */
+static int choose_edges(packed_scene *packed, const char *const values[], problem *why)
+{
+    if (values[EDGES] || packed->settings.shadow == GN_SHADOW_VOLUMES)
+        return packed_make_edges(packed, values[VERBOSE] != 0, why);
+    packed_drop_edges(packed);
+    return 0;
 }
 
 static int pack(packed_scene *packed, const char *scene, const char *const values[], problem *why)
@@ -45,6 +57,8 @@ static int pack(packed_scene *packed, const char *scene, const char *const value
     if (render_options_read(&packed->settings, packed, values, why))
         return -1;
     packed->has_method |= chosen;
+    if (choose_edges(packed, values, why))
+        return -1;
     if (header ? pack_write_header(packed, path, scene, why) : pack_write(packed, path, why))
         return -1;
     printf("%s: %" PRIu64 " triangles, %" PRIu64 " vertices; a world unit is 2^%d", path, packed_triangle_count(packed),

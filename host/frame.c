@@ -122,11 +122,12 @@ static gn_status run_camera_region(frame *f, uint32_t region, uint32_t worker)
 {
     gn_pixels pixels;
     size_t row = (size_t)region * f->plan.region_height * f->settings.width;
+    gn_status (*render)(gn_context *, uint32_t, uint32_t, void *, uint8_t *, gn_pixels *) =
+        f->settings.shadow == GN_SHADOW_VOLUMES ? gn_volumes_region : gn_camera_region;
     if (f->plan.region_width == f->settings.width)
-        return gn_camera_region(f->context, region, worker, f->colour ? f->colour + 3 * row : 0,
-                                f->mask ? f->mask + row : 0, &pixels);
-    gn_status status =
-        gn_camera_region(f->context, region, worker, f->worker_colour[worker], f->worker_mask[worker], &pixels);
+        return render(f->context, region, worker, f->colour ? f->colour + 3 * row : 0, f->mask ? f->mask + row : 0,
+                      &pixels);
+    gn_status status = render(f->context, region, worker, f->worker_colour[worker], f->worker_mask[worker], &pixels);
     if (status == GN_OK)
         copy_region(f, &pixels);
     return status;
@@ -142,8 +143,9 @@ static int refused(gn_status status, const char *pass, problem *why)
 int frame_light_pass(frame *f, const gn_light *light, problem *why)
 {
     double start = frame_clock();
-    gn_status status = gn_light_begin(f->context, light);
-    if (status == GN_OK)
+    int volumes = f->settings.shadow == GN_SHADOW_VOLUMES;
+    gn_status status = volumes ? gn_volumes_light(f->context, light) : gn_light_begin(f->context, light);
+    if (status == GN_OK && !volumes)
         status = run_regions(f, run_light_region, f->plan.light_regions);
     f->light_seconds = frame_clock() - start;
     return refused(status, "light", why);
@@ -152,7 +154,8 @@ int frame_light_pass(frame *f, const gn_light *light, problem *why)
 int frame_camera_pass(frame *f, const gn_camera *camera, problem *why)
 {
     double start = frame_clock();
-    gn_status status = gn_camera_begin(f->context, camera);
+    gn_status status = f->settings.shadow == GN_SHADOW_VOLUMES ? gn_volumes_begin(f->context, camera)
+                                                               : gn_camera_begin(f->context, camera);
     if (status == GN_OK)
         status = run_regions(f, run_camera_region, f->plan.camera_regions);
     f->camera_seconds = frame_clock() - start;
@@ -186,6 +189,10 @@ int frame_open(frame *f, const gn_scene *scene, const gn_settings *settings, int
     f->settings = *settings;
     if (f->settings.workers > 1 && !f->settings.map_rows) /* or the light pass is one job */
         f->settings.map_rows = (uint16_t)((f->settings.map_height + f->settings.workers - 1) / f->settings.workers);
+    /* a volume's side is set up anew for every region that it crosses */
+    if (f->settings.shadow == GN_SHADOW_VOLUMES && !f->settings.region_height)
+        f->settings.region_height =
+            (uint16_t)((f->settings.height + 2 * f->settings.workers - 1) / (2 * f->settings.workers));
     gn_status status = gn_make_plan(&f->plan, scene, &f->settings);
     if (status != GN_OK)
         return problem_of_usage(why, "the core refuses the scene: %s", render_status_text(status));
@@ -195,9 +202,9 @@ int frame_open(frame *f, const gn_scene *scene, const gn_settings *settings, int
         return problem_of_usage(why, "the core cannot start: %s", render_status_text(status));
     allocate_image(f);
     f->keep_layers = keep_layers;
-    f->layer_count = f->plan.layers == GN_LAYERS_TWO ? 2 : 1;
+    f->layer_count = settings->shadow == GN_SHADOW_VOLUMES ? 0 : f->plan.layers == GN_LAYERS_TWO ? 2 : 1;
     size_t texels = (size_t)f->settings.map_width * f->settings.map_height;
-    if (keep_layers)
+    if (keep_layers && f->layer_count)
         f->map = memory_take(texels, sizeof *f->map);
     for (int i = 0; keep_layers && i < f->layer_count; i++)
         f->layers[i] = memory_take(texels, sizeof *f->layers[i]);

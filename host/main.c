@@ -10,6 +10,7 @@ static const struct {
     int (*run)(int argc, char **argv);
 } commands[] = {
     {"render", render_summary, command_render},
+    {"truth", truth_summary, command_truth},
     {"compare", compare_summary, command_compare},
     {"pack", pack_summary, command_pack},
     {"bench", bench_summary, command_bench},
@@ -48,8 +49,8 @@ int main(int argc, char **argv)
     for (int i = 0; i < COMMANDS; i++)
         if (strcmp(argv[1], commands[i].name) == 0)
             return commands[i].run(argc - 2, argv + 2);
-    int planned = strcmp(argv[1], "truth") == 0 || strcmp(argv[1], "sweep") == 0;
-    fprintf(stderr, "gnomon: %s '%s'; expected render, compare, pack, bench or procedural (gnomon --help)\n",
+    int planned = strcmp(argv[1], "sweep") == 0;
+    fprintf(stderr, "gnomon: %s '%s'; expected render, truth, compare, pack, bench or procedural (gnomon --help)\n",
             planned ? "not built yet:" : "unknown command", argv[1]);
     return EXIT_BAD_INPUT;
 }

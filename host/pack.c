@@ -1,5 +1,6 @@
 #include "pack.h"
 
+#include "adjacency.h"
 #include "file.h"
 #include "memory.h"
 
@@ -7,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VERSION = 1, BODY = 16, MESHES = 208, LARGEST_PLANE = 1 << 28, LARGEST_HALF_HEIGHT = 1 << 26, UNIT = 1 << 30 };
+enum { VERSION = 2, BODY = 16, MESHES = 208, LARGEST_PLANE = 1 << 28, LARGEST_HALF_HEIGHT = 1 << 26, UNIT = 1 << 30 };
 
 static uint32_t crc32_of(const uint8_t *bytes, size_t size)
 {
@@ -58,7 +59,8 @@ static void put_settings(writer *w, const packed_scene *packed)
     put(w, method ? s->layers : 0, 1);
     put(w, method ? s->surface : 0, 1);
     put(w, method ? s->bias.unit : 0, 1);
-    put(w, 0, 2);
+    put(w, method ? s->shadow : 0, 1);
+    put(w, 0, 1);
     put(w, method ? s->bias.value : 0, 4);
 }
 
@@ -92,6 +94,7 @@ static void put_mesh(writer *w, const gn_mesh *mesh)
     put(w, mesh->index_size, 1);
     put(w, mesh->closed, 1);
     put(w, 0, 2);
+    put(w, mesh->edge_count, 4);
     put_numbers(w, &mesh->vertices[0][0], 3 * (size_t)mesh->vertex_count);
     for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++)
         if (mesh->index_size == 2)
@@ -99,6 +102,10 @@ static void put_mesh(writer *w, const gn_mesh *mesh)
         else
             put(w, ((const uint32_t *)mesh->indices)[i], 4);
     put(w, 0, (int)(-w->size & 3));
+    for (uint32_t i = 0; i < mesh->edge_count; i++) {
+        put(w, mesh->edges[i].half[0], 4);
+        put(w, mesh->edges[i].half[1], 4);
+    }
 }
 
 int pack_write(const packed_scene *packed, const char *path, problem *why)
@@ -249,7 +256,8 @@ static int get_method(reader *r, packed_scene *packed)
     if (get_byte(r, "cull", has_method ? GN_CULL_FRONT : 0, &s->cull) ||
         get_byte(r, "layers", has_method ? GN_LAYERS_TWO : 0, &s->layers) ||
         get_byte(r, "surface", has_method ? GN_MIXED : 0, &s->surface) ||
-        get_byte(r, "unit of the bias", has_method ? GN_BIAS_RANGE : 0, &s->bias.unit) || get_zeros(r, 2))
+        get_byte(r, "unit of the bias", has_method ? GN_BIAS_RANGE : 0, &s->bias.unit) ||
+        get_byte(r, "shadow", has_method ? GN_SHADOW_VOLUMES : 0, &s->shadow) || get_zeros(r, 1))
         return -1;
     return get_ranged(r, "bias", 4, 0, has_method ? UINT32_MAX : 0, &s->bias.value);
 }
@@ -353,10 +361,97 @@ static int get_indices(reader *r, gn_mesh *mesh)
     return get_zeros(r, (int)(-r->at & 3));
 }
 
+static int same_place(const gn_mesh *mesh, uint32_t corner, uint32_t other)
+{
+    const int32_t *a = mesh->vertices[adjacency_vertex(mesh, corner)];
+    const int32_t *b = mesh->vertices[adjacency_vertex(mesh, other)];
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+enum { LEFT_OUT, EXPECTED, SEEN };
+
+/* What becomes of each half-edge: those of triangles with two corners at one place are LEFT_OUT of all edges. */
+static uint8_t *make_half_edge_list(const gn_mesh *mesh)
+{
+    uint8_t *list = memory_take(mesh->triangle_count, 3);
+    for (uint32_t h = 0; h < 3 * mesh->triangle_count; h += 3)
+        if (!same_place(mesh, h, h + 1) && !same_place(mesh, h + 1, h + 2) && !same_place(mesh, h + 2, h))
+            memset(list + h, EXPECTED, 3);
+    return list;
+}
+
+/* Tick off the half-edge that was read last. */
+static int take_half_edge(reader *r, const gn_mesh *mesh, uint8_t *list, uint32_t half)
+{
+    uint32_t most = 3 * mesh->triangle_count - 1;
+    if (half <= most && list[half] == EXPECTED) {
+        list[half] = SEEN;
+        return 0;
+    }
+    r->at -= 4;
+    if (half > most)
+        return WRONG(r, "half-edge is %u; expected 0 to %u", (unsigned)half, (unsigned)most);
+    if (list[half] == SEEN)
+        return WRONG(r, "half-edge %u stands in another edge already; expected it in one", (unsigned)half);
+    return WRONG(r, "half-edge %u is of a triangle with two corners at one place; expected none of those",
+                 (unsigned)half);
+}
+
+/* Have both half-edges the same two ends, and do they run as the flag says? */
+static int check_ends(reader *r, const gn_mesh *mesh, const gn_mesh_edge *edge)
+{
+    uint32_t direction = edge->half[1] & GN_SAME_DIRECTION;
+    uint32_t a = edge->half[0], b = edge->half[1] & ~GN_SAME_DIRECTION;
+    uint32_t start = direction ? b : adjacency_end(b), end = direction ? adjacency_end(b) : b;
+    if (same_place(mesh, a, start) && same_place(mesh, adjacency_end(a), end))
+        return 0;
+    r->at -= 8;
+    return WRONG(r, "half-edges %u and %u make no edge; expected them to run between the same two places, in %s",
+                 (unsigned)a, (unsigned)b, direction ? "the same direction" : "opposite directions");
+}
+
+static int get_edge(reader *r, const gn_mesh *mesh, uint8_t *list, gn_mesh_edge *edge)
+{
+    edge->half[0] = get(r, 4);
+    if (take_half_edge(r, mesh, list, edge->half[0]))
+        return -1;
+    edge->half[1] = get(r, 4);
+    if (edge->half[1] == GN_NO_HALF_EDGE)
+        return 0;
+    if (take_half_edge(r, mesh, list, edge->half[1] & ~GN_SAME_DIRECTION))
+        return -1;
+    return check_ends(r, mesh, edge);
+}
+
+/* All that gn_mesh_edge promises, so that the core may rely on it. The mesh's vertices and indices are there. */
+static int get_edges(reader *r, gn_mesh *mesh)
+{
+    if (!mesh->edge_count)
+        return 0;
+    gn_mesh_edge *edges = memory_take(mesh->edge_count, sizeof *edges);
+    uint8_t *list = make_half_edge_list(mesh);
+    int result = 0;
+    mesh->edges = edges;
+    for (uint32_t i = 0; i < mesh->edge_count && !result; i++)
+        result = get_edge(r, mesh, list, &edges[i]);
+    const uint8_t *missing = memchr(list, EXPECTED, 3 * (size_t)mesh->triangle_count);
+    if (!result && missing)
+        result = WRONG(r, "half-edge %u stands in no edge of its mesh; expected it in one", (unsigned)(missing - list));
+    free(list);
+    return result;
+}
+
+/* 64 bits: a count that was read may be anything. */
+static uint64_t mesh_bytes(const gn_mesh *mesh)
+{
+    uint64_t bytes = 12 * (uint64_t)mesh->vertex_count + 3 * (uint64_t)mesh->triangle_count * mesh->index_size;
+    return bytes + (-bytes & 3) + 8 * (uint64_t)mesh->edge_count;
+}
+
 static int get_mesh(reader *r, gn_mesh *mesh)
 {
-    if (r->size - r->at < 12)
-        return WRONG(r, "the file ends within a mesh; expected 12 bytes more");
+    if (r->size - r->at < 16)
+        return WRONG(r, "the file ends within a mesh; expected 16 bytes more");
     uint32_t index_size;
     if (get_ranged(r, "vertex count", 4, 1, INT32_MAX, &mesh->vertex_count) ||
         get_ranged(r, "triangle count", 4, 1, INT32_MAX, &mesh->triangle_count) ||
@@ -366,12 +461,15 @@ static int get_mesh(reader *r, gn_mesh *mesh)
     if (index_size == 3)
         return WRONG(r, "3 bytes an index; expected 2 or 4");
     mesh->index_size = (uint8_t)index_size;
-    uint64_t bytes = 12 * (uint64_t)mesh->vertex_count + 3 * (uint64_t)mesh->triangle_count * index_size;
-    bytes += -bytes & 3;
-    if (bytes > r->size - r->at)
-        return WRONG(r, "the file ends within a mesh of %u vertices and %u triangles; expected %llu bytes more",
-                     (unsigned)mesh->vertex_count, (unsigned)mesh->triangle_count, (unsigned long long)bytes);
-    return get_vertices(r, mesh) || get_indices(r, mesh) ? -1 : 0;
+    uint64_t most = 3 * (uint64_t)mesh->triangle_count;
+    if (get_ranged(r, "edge count", 4, 0, most < UINT32_MAX ? (uint32_t)most : UINT32_MAX, &mesh->edge_count))
+        return -1;
+    if (mesh_bytes(mesh) > r->size - r->at)
+        return WRONG(r,
+                     "the file ends within a mesh of %u vertices, %u triangles and %u edges; expected %llu bytes more",
+                     (unsigned)mesh->vertex_count, (unsigned)mesh->triangle_count, (unsigned)mesh->edge_count,
+                     (unsigned long long)mesh_bytes(mesh));
+    return get_vertices(r, mesh) || get_indices(r, mesh) || get_edges(r, mesh) ? -1 : 0;
 }
 
 static int get_object(reader *r, packed_scene *packed, gn_object *object)

@@ -52,20 +52,55 @@ static void write_indices(const source *s, uint32_t number, const gn_mesh *mesh)
     fputs("};\n\n", s->stream);
 }
 
+static void write_edge(const source *s, const gn_mesh_edge *edge)
+{
+    uint32_t second = edge->half[1];
+    fprintf(s->stream, "{{%" PRIu32 ", ", edge->half[0]);
+    if (second == GN_NO_HALF_EDGE)
+        fputs("GN_NO_HALF_EDGE}},", s->stream);
+    else
+        fprintf(s->stream, "%s%" PRIu32 "}},", second & GN_SAME_DIRECTION ? "GN_SAME_DIRECTION | " : "",
+                second & ~GN_SAME_DIRECTION);
+}
+
+/* C has no array of no elements: where a mesh's edges are none at all, one stands there that is not counted. */
+static void write_edges(const source *s, uint32_t number, const gn_mesh *mesh)
+{
+    fprintf(s->stream, "static const gn_mesh_edge %s_edges_%" PRIu32 "[%" PRIu32 "] = {\n", s->name, number,
+            mesh->edge_count ? mesh->edge_count : 1);
+    if (!mesh->edge_count)
+        fputs("    {{GN_NO_HALF_EDGE, GN_NO_HALF_EDGE}},\n", s->stream);
+    for (uint32_t e = 0; e < mesh->edge_count; e++) {
+        fputs(e % 6 ? " " : "    ", s->stream);
+        write_edge(s, &mesh->edges[e]);
+        fputs(e % 6 == 5 || e + 1 == mesh->edge_count ? "\n" : "", s->stream);
+    }
+    fputs("};\n\n", s->stream);
+}
+
+static void write_mesh(const source *s, uint32_t number, const gn_mesh *mesh)
+{
+    fprintf(s->stream,
+            "    {.vertices = %s_vertices_%" PRIu32 ", .indices = %s_indices_%" PRIu32 ", .vertex_count = %" PRIu32
+            ",\n     .triangle_count = %" PRIu32 ", .index_size = %d, .closed = %d",
+            s->name, number, s->name, number, mesh->vertex_count, mesh->triangle_count, mesh->index_size, mesh->closed);
+    if (mesh->edges)
+        fprintf(s->stream, ",\n     .edges = %s_edges_%" PRIu32 ", .edge_count = %" PRIu32, s->name, number,
+                mesh->edge_count);
+    fputs("},\n", s->stream);
+}
+
 static void write_meshes(const source *s, const packed_scene *packed)
 {
     for (uint32_t i = 0; i < packed->mesh_count; i++) {
         write_vertices(s, i, &packed->meshes[i]);
         write_indices(s, i, &packed->meshes[i]);
+        if (packed->meshes[i].edges)
+            write_edges(s, i, &packed->meshes[i]);
     }
     fprintf(s->stream, "static const gn_mesh %s_meshes[%" PRIu32 "] = {\n", s->name, packed->mesh_count);
-    for (uint32_t i = 0; i < packed->mesh_count; i++) {
-        const gn_mesh *mesh = &packed->meshes[i];
-        fprintf(s->stream,
-                "    {.vertices = %s_vertices_%" PRIu32 ", .indices = %s_indices_%" PRIu32 ", .vertex_count = %" PRIu32
-                ",\n     .triangle_count = %" PRIu32 ", .index_size = %d, .closed = %d},\n",
-                s->name, i, s->name, i, mesh->vertex_count, mesh->triangle_count, mesh->index_size, mesh->closed);
-    }
+    for (uint32_t i = 0; i < packed->mesh_count; i++)
+        write_mesh(s, i, &packed->meshes[i]);
     fputs("};\n\n", s->stream);
 }
 
@@ -135,10 +170,11 @@ static void write_settings(const source *s, const gn_settings *settings)
     fprintf(s->stream,
             "static const gn_settings %s_settings = {\n    .width = %d,\n    .height = %d,\n    .map_width = %d,\n"
             "    .map_height = %d,\n    .cull = %s,\n    .layers = %s,\n    .surface = %s,\n    .format = GN_RGB888,\n"
-            "    .workers = 1,\n    .bias = {%s, %" PRIu32 "u},\n};\n\n",
+            "    .workers = 1,\n%s    .bias = {%s, %" PRIu32 "u},\n};\n\n",
             s->name, settings->width, settings->height, settings->map_width, settings->map_height,
-            culls[settings->cull], layers[settings->layers], surfaces[settings->surface], units[settings->bias.unit],
-            settings->bias.value);
+            culls[settings->cull], layers[settings->layers], surfaces[settings->surface],
+            settings->shadow == GN_SHADOW_VOLUMES ? "    .shadow = GN_SHADOW_VOLUMES,\n" : "",
+            units[settings->bias.unit], settings->bias.value);
 }
 
 int pack_write_header(const packed_scene *packed, const char *path, const char *from, problem *why)

@@ -1,9 +1,11 @@
 #include "packed.h"
 
+#include "adjacency.h"
 #include "file.h"
 #include "pack.h"
 #include "quantise.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,7 +19,7 @@ static int quantise_file(packed_scene *packed, const char *path, const file_cont
     return result;
 }
 
-int packed_read(packed_scene *packed, const char *path, int verbose, problem *why)
+int packed_read_any_light(packed_scene *packed, const char *path, int verbose, problem *why)
 {
     file_content content;
     memset(packed, 0, sizeof *packed);
@@ -30,8 +32,58 @@ int packed_read(packed_scene *packed, const char *path, int verbose, problem *wh
     return result;
 }
 
+int packed_read(packed_scene *packed, const char *path, int verbose, problem *why)
+{
+    int result = packed_read_any_light(packed, path, verbose, why);
+    if (!result && packed->point_light)
+        return problem_at(why, path, packed->point_light,
+                          "point lights are not supported yet but by `gnomon truth`; expected 'directional' or 'spot'");
+    return result;
+}
+
+static void notice_edges(uint32_t mesh, adjacency_counts counts)
+{
+    if (counts.open)
+        fprintf(stderr, "gnomon: notice: mesh %u has %u open edges\n", (unsigned)mesh, (unsigned)counts.open);
+    if (counts.same_direction)
+        fprintf(stderr, "gnomon: notice: mesh %u has %u edges between triangles of opposite winding\n", (unsigned)mesh,
+                (unsigned)counts.same_direction);
+    if (counts.non_manifold)
+        fprintf(stderr, "gnomon: notice: mesh %u has %u edges with more than two triangles\n", (unsigned)mesh,
+                (unsigned)counts.non_manifold);
+    if (counts.left_out)
+        fprintf(stderr, "gnomon: notice: mesh %u has %u triangles with two corners at one place\n", (unsigned)mesh,
+                (unsigned)counts.left_out);
+}
+
+int packed_make_edges(packed_scene *packed, int verbose, problem *why)
+{
+    for (uint32_t i = 0; i < packed->mesh_count; i++) {
+        gn_mesh *mesh = &packed->meshes[i];
+        if (mesh->edges)
+            continue;
+        if (mesh->triangle_count > ADJACENCY_MOST_TRIANGLES)
+            return problem_of_usage(why, "mesh %u has %u triangles; expected at most %u where its edges are asked for",
+                                    (unsigned)i, (unsigned)mesh->triangle_count, ADJACENCY_MOST_TRIANGLES);
+        adjacency_counts counts = adjacency_make(mesh);
+        if (verbose)
+            notice_edges(i, counts);
+    }
+    return 0;
+}
+
+void packed_drop_edges(packed_scene *packed)
+{
+    for (uint32_t i = 0; i < packed->mesh_count; i++) {
+        free((void *)packed->meshes[i].edges);
+        packed->meshes[i].edges = 0;
+        packed->meshes[i].edge_count = 0;
+    }
+}
+
 void packed_free(packed_scene *packed)
 {
+    packed_drop_edges(packed);
     for (uint32_t i = 0; i < packed->mesh_count; i++) {
         free((void *)packed->meshes[i].vertices);
         free((void *)packed->meshes[i].indices);

@@ -10,10 +10,11 @@
 typedef struct packed_scene {
     gn_scene scene; /* of objects[], which point into meshes[] */
     gn_object *objects;
-    gn_mesh *meshes; /* their vertices and indices are on the heap */
+    gn_mesh *meshes; /* their vertices, indices and edges are on the heap */
     uint32_t mesh_count;
     gn_camera camera;
     gn_light light;
+    long point_light; /* line of the scene file with a `light point`, else 0: light has position and depths alone */
     gn_settings settings; /* image and map size; method and bias where has_method */
     int has_method;
     int scale;               /* one world unit of the scene file is 2^scale integers */
@@ -21,8 +22,19 @@ typedef struct packed_scene {
 } packed_scene;
 
 /* Read a .scene file with its meshes, or a .gno file (told apart by what they hold). verbose: notices about meshes on
- * standard error. packed_free() it afterwards, also after an error. 0, or -1 and the problem. */
+ * standard error. packed_free() it afterwards, also after an error. 0, or -1 and the problem: a point light is one, as
+ * the core has none yet. */
 int packed_read(packed_scene *packed, const char *path, int verbose, problem *why);
+
+/* The same, but a point light is taken. */
+int packed_read_any_light(packed_scene *packed, const char *path, int verbose, problem *why);
+
+/* Make the edges of all meshes that have none, for shadow volumes (adjacency.h). verbose: notices about open edges and
+ * the like on standard error. 0, or -1 and the problem: a mesh of more than 715 million triangles. */
+int packed_make_edges(packed_scene *packed, int verbose, problem *why);
+
+/* Forget the edges of all meshes. */
+void packed_drop_edges(packed_scene *packed);
 
 void packed_free(packed_scene *packed);
 

@@ -145,10 +145,11 @@ static int choose_scale(source *s)
     if (camera->orthographic &&
         make_fit(s, camera->line, "half the camera's height", camera->height / 2, HEIGHT_BITS, largest))
         return -1;
+    if ((light->spot || light->point) &&
+        make_fit(s, light->line, "the light's position coordinate", largest_of(light->position, 3), EYE_BITS, largest))
+        return -1;
     if (light->spot &&
-        (make_fit(s, light->line, "the light's position coordinate", largest_of(light->position, 3), EYE_BITS,
-                  largest) ||
-         make_fit(s, light->line, "the light's target coordinate", largest_of(light->target, 3), EYE_BITS, largest)))
+        make_fit(s, light->line, "the light's target coordinate", largest_of(light->target, 3), EYE_BITS, largest))
         return -1;
     return 0;
 }
@@ -299,11 +300,25 @@ static int pack_camera(packed_scene *packed, const source *s)
     return 0;
 }
 
+/* Six frustums of 90 degrees: what the core will ask of each. */
+static int pack_point_light(packed_scene *packed, const source *s)
+{
+    const scene_light *light = &s->scene->light;
+    gn_light *out = &packed->light;
+    packed->point_light = light->line;
+    rounded_point(s, out->position, light->position);
+    if (rounded_planes(s, light->line, light->near_depth, light->far_depth, &out->near_depth, &out->far_depth))
+        return -1;
+    return check_perspective(s, light->line, out->position, 1, out->near_depth, out->far_depth);
+}
+
 static int pack_light(packed_scene *packed, const source *s)
 {
     const scene_light *light = &s->scene->light;
     int32_t up[3], direction[3], position[3], target[3], near_depth, far_depth;
     gn_status status;
+    if (light->point)
+        return pack_point_light(packed, s);
     if (light->has_up)
         rounded_direction(up, light->up);
     if (light->spot) {

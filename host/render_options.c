@@ -8,11 +8,11 @@ static const char *const surfaces[] = {"constant", "midpoint", "dual", "second",
 static const char *const culls[] = {"auto", "none", "back", "front"};
 static const char *const layer_names[] = {"auto", "first", "two"};
 
-enum { METHOD_AUTO = 5, METHODS_BUILT = 6, METHODS = 10 };
+enum { METHOD_AUTO = 5, METHOD_VOLUMES = 6, METHODS_BUILT = 7, METHODS = 10 };
 
-/* In the order of gn_surface, then auto, then those of docs/design.md that are not built yet. */
-static const char *const methods[METHODS] = {"constant", "midpoint", "dual",     "second-depth", "mixed",
-                                             "auto",     "slope",    "adaptive", "silhouette",   "volumes"};
+/* In the order of gn_surface, then auto and volumes, then those of docs/design.md that are not built yet. */
+static const char *const methods[METHODS] = {"constant", "midpoint", "dual",  "second-depth", "mixed",
+                                             "auto",     "volumes",  "slope", "adaptive",     "silhouette"};
 
 /* The only choice that exists, and what is planned beside it. */
 static int read_only_choice(const char *name, const char *value, const char *built, const char *const planned[],
@@ -49,12 +49,16 @@ static int all_meshes_are_closed(const packed_scene *packed)
 /* A method leaves culling and layers to the plan, which picks the cheapest that give its surface. */
 static void use_method(gn_settings *settings, const packed_scene *packed, int method)
 {
+    settings->shadow = method == METHOD_VOLUMES ? GN_SHADOW_VOLUMES : GN_SHADOW_MAP;
+    if (method == METHOD_VOLUMES)
+        return;
     settings->cull = GN_CULL_AUTO;
     settings->layers = GN_LAYERS_AUTO;
     settings->bias = (gn_bias){GN_BIAS_TEXELS, 2 << 16};
     settings->surface = (uint8_t)method;
     if (method == METHOD_AUTO) {
-        /* Mixed bounds its bias by half the way to the next surface, so it can afford one that also serves grazing light. */
+        /* Mixed bounds its bias by half the way to the next surface, so it can afford one that also serves grazing
+         * light. */
         settings->surface = all_meshes_are_closed(packed) ? GN_SECOND : GN_MIXED;
         settings->bias.value = 8 << 16;
     }
@@ -68,7 +72,7 @@ static int read_method(gn_settings *settings, const packed_scene *packed, const 
         if (method >= METHODS_BUILT)
             return problem_of_usage(why,
                                     "--method %s is not built yet; expected constant, midpoint, dual, second-depth, "
-                                    "mixed or auto",
+                                    "mixed, auto or volumes",
                                     values[RENDER_METHOD]);
         if (method < 0)
             return -1;
@@ -127,6 +131,26 @@ static int read_sizes(gn_settings *settings, const char *const values[], problem
     return 0;
 }
 
+/* Shadow volumes have no map. */
+static int check_volumes(const char *const values[], problem *why)
+{
+    static const struct {
+        int option;
+        const char *name;
+    } of_maps[] = {{RENDER_CULL, "--cull"},
+                   {RENDER_LAYERS, "--layers"},
+                   {RENDER_BIAS, "--bias"},
+                   {RENDER_MAP, "--map"},
+                   {RENDER_RECEIVER, "--receiver"},
+                   {RENDER_RECONSTRUCT, "--reconstruct"},
+                   {RENDER_PARAMETERISE, "--parameterise"}};
+    for (size_t i = 0; i < sizeof of_maps / sizeof *of_maps; i++)
+        if (values[of_maps[i].option])
+            return problem_of_usage(why, "%s has no meaning for shadow volumes; expected a method with a shadow map",
+                                    of_maps[i].name);
+    return 0;
+}
+
 /* The same rules as gn_make_plan, in words. */
 static int check_combination(const gn_settings *s, const packed_scene *packed, problem *why)
 {
@@ -145,11 +169,13 @@ static int check_combination(const gn_settings *s, const packed_scene *packed, p
     return 0;
 }
 
-int render_options_read(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why)
+int render_options_read(gn_settings *settings, packed_scene *packed, const char *const values[], problem *why)
 {
     *settings = packed->settings;
     if (read_fixed_choices(values, why) || read_method(settings, packed, values, why) ||
-        read_parts(settings, packed, values, why) || read_sizes(settings, values, why))
+        (settings->shadow == GN_SHADOW_VOLUMES && check_volumes(values, why)) ||
+        read_parts(settings, packed, values, why) || read_sizes(settings, values, why) ||
+        (settings->shadow == GN_SHADOW_VOLUMES && packed_make_edges(packed, 0, why)))
         return -1;
     return check_combination(settings, packed, why);
 }
@@ -174,6 +200,11 @@ int work_options_read(gn_settings *settings, const char *const values[], problem
         settings->map_rows = (uint16_t)number;
     }
     return 0;
+}
+
+const char *render_shadow_name(const gn_settings *settings)
+{
+    return settings->shadow == GN_SHADOW_VOLUMES ? "volumes" : "map";
 }
 
 const char *render_surface_name(int surface)
@@ -207,7 +238,7 @@ const char *render_status_text(gn_status status)
     case GN_MISALIGNED:
         return "the memory block is not aligned";
     case GN_BAD_MESH:
-        return "a mesh refers to vertices that do not exist";
+        return "a mesh refers to vertices or edges that do not exist";
     case GN_TOO_MANY:
         return "too many objects or triangles";
     case GN_UNSUPPORTED:

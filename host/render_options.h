@@ -32,7 +32,8 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
     {"--method", "NAME", \
      "constant, midpoint, dual, second-depth, mixed or auto: a preset of the\n" \
      "options below. auto (the default): second-depth where every mesh is\n" \
-     "closed, else mixed with bias 8t"}, \
+     "closed, else mixed with bias 8t. volumes: shadow volumes, exact at every\n" \
+     "pixel and without a map: none of the options below"}, \
     {"--parameterise", "NAME", "uniform: the map covers the light's frustum evenly"}, \
     {"--cull", "WHICH", \
      "auto, none, back or front faces of closed meshes in the light pass.\n" \
@@ -62,11 +63,14 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
 /* clang-format on */
 
 /* Settings of a scene and a command line: settings->mask, ->workers and the regions are left as they are by default.
- * 0, or -1 and the problem. */
-int render_options_read(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why);
+ * Shadow volumes: gives meshes the edges that they lack. 0, or -1 and the problem. */
+int render_options_read(gn_settings *settings, packed_scene *packed, const char *const values[], problem *why);
 
 /* Workers and regions; values from WORK_HEAD on. 0, or -1 and the problem. */
 int work_options_read(gn_settings *settings, const char *const values[], problem *why);
+
+/* "map" or "volumes". */
+const char *render_shadow_name(const gn_settings *settings);
 
 /* The words of --virtual-surface, --cull and --layers for a setting. */
 const char *render_surface_name(int surface);

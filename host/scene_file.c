@@ -252,16 +252,15 @@ static int read_spot_light(reader *r, scene_light *light)
     return check_axes(r, light->position, light->target, light->has_up ? light->up : 0, "position");
 }
 
-static int refuse_point_light(reader *r, scene_light *light)
+static int read_point_light(reader *r, scene_light *light)
 {
     key keys[] = {
         POINT("position", light->position, 1),
         DISTANCE("near", &light->near_depth),
         DISTANCE("far", &light->far_depth),
     };
-    if (READ_KEYS(r, keys) || check_depths(r, light->near_depth, light->far_depth))
-        return -1;
-    return WRONG(r, "point lights are not supported yet; expected 'directional' or 'spot'");
+    light->point = 1;
+    return READ_KEYS(r, keys) || check_depths(r, light->near_depth, light->far_depth) ? -1 : 0;
 }
 
 static int read_light(reader *r)
@@ -277,7 +276,7 @@ static int read_light(reader *r)
     if (word_is(kind, "spot"))
         return read_spot_light(r, light);
     if (word_is(kind, "point"))
-        return refuse_point_light(r, light);
+        return read_point_light(r, light);
     return WRONG(r, "'%s' is no kind of light; expected 'directional', 'spot' or 'point'", word_shown(kind).text);
 }
 

@@ -7,7 +7,7 @@
  *     camera orthographic eye x y z  target x y z  up x y z  height H  near N far F
  *     light  directional  direction x y z  [up x y z]
  *     light  spot   position x y z  target x y z  [up x y z]  fovy D  near N far F
- *     light  point  position x y z  near N far F                                   (read, but not supported yet)
+ *     light  point  position x y z  near N far F                                   (for `gnomon truth` alone)
  *     ambient A
  *     mesh   PATH.obj  surface closed|open  color r g b
  *            [scale s | scale sx sy sz]  [rotate ax ay az D]  [translate x y z]
@@ -33,10 +33,10 @@ typedef struct scene_camera {
 
 typedef struct scene_light {
     long line;
-    int spot;
+    int spot, point;                      /* neither: directional */
     double direction[3];                  /* directional */
-    double position[3], target[3], up[3]; /* spot (up: both) */
-    double fovy, near_depth, far_depth;   /* spot */
+    double position[3], target[3], up[3]; /* spot (position: and point; up: and directional) */
+    double fovy, near_depth, far_depth;   /* spot (depths: and point) */
     int has_up;
 } scene_light;
 

@@ -96,6 +96,43 @@ check "packed_c_compiles_without_a_warning" ${CC:-cc} -std=c99 -pedantic -Wall -
     "$folder/use.c" core/*.c -o "$folder/use"
 check "packed_c_holds_the_scene" "$folder/use"
 
+check "packed_c_has_no_edges_unless_asked_for" sh -c "! grep -q edge '$folder/l-shape.h'"
+
+# Two closed meshes, and an open one: a sheet whose last triangle is turned round, and one triangle of no area.
+cp "$scene" "$folder/made/edged.scene"
+echo 'mesh sheet.obj surface open color 1 1 1' >>"$folder/made/edged.scene"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 2 0\nf 1 2 3\nf 3 2 4\nf 4 3 5\nf 1 1 2\n' >"$folder/made/sheet.obj"
+check "a_scene_is_packed_as_c_with_edges" status 0 pack "$folder/made/edged.scene" -o "$folder/edged.h" --edges
+check "and_from_a_packed_scene" status 0 pack "$folder/made/edged.scene" -o "$folder/edged.gno" --edges
+check "which_has_the_same_hashes" same_hashes "$(hash_of "$folder/made/edged.scene")" "$(hash_of "$folder/edged.gno")"
+cat >"$folder/edges.c" <<'END'
+#include "edged.h"
+static int is(const gn_mesh_edge *edge, uint32_t first, uint32_t second)
+{
+    return edge->half[0] == first && edge->half[1] == second;
+}
+int main(void)
+{
+    const gn_mesh *m = edged_meshes;
+    const gn_mesh_edge *e = m[2].edges;
+    return 2 * m[0].edge_count == 3 * m[0].triangle_count && 2 * m[1].edge_count == 3 * m[1].triangle_count &&
+           e == edged_edges_2 && m[2].edge_count == 7 && is(e, 0, GN_NO_HALF_EDGE) && is(e + 1, 1, 3) &&
+           is(e + 4, 5, GN_SAME_DIRECTION | 6) && !edged_settings.shadow ? 0 : 1;
+}
+END
+check "packed_edges_compile_without_a_warning" ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Wconversion -Werror -Icore \
+    -I"$folder" "$folder/edges.c" -o "$folder/edges"
+check "packed_edges_are_those_of_the_meshes" "$folder/edges"
+printf 'v 0 0 0\nv 1 0 0\nf 1 1 2\n' >"$folder/made/sheet.obj"
+check "a_mesh_of_no_area_is_packed_with_edges" status 0 pack "$folder/made/edged.scene" -o "$folder/none.h" --edges
+echo '#include "none.h"
+int main(void) { return !(none_meshes[2].edges && none_meshes[2].edge_count == 0 && none_scene.ambient && none_light.forward[1] &&
+    none_camera.far_depth && none_settings.width); }' >"$folder/none.c"
+check "and_has_none_that_count" sh -c "${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror -Icore -I'$folder' '$folder/none.c' \
+    -o '$folder/none' && '$folder/none'"
+check "edges_worth_a_notice_are_noticed" sh -c "'$gnomon' pack '$folder/made/edged.scene' -o '$folder/none.gno' --edges \
+    --verbose 2>&1 | grep -qx 'gnomon: notice: mesh 2 has 1 triangles with two corners at one place'"
+
 mkdir "$folder/folder.ppm"
 check "two_scenes_are_refused" refuses "2 scenes" render "$scene" "$scene" -o "$folder/new.ppm"
 check "nothing_to_write_is_refused" refuses "nothing to write" render "$scene"

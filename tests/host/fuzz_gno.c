@@ -27,6 +27,8 @@ static void render(packed_scene *packed)
     frame f;
     problem why;
     gn_plan plan;
+    if (packed->settings.shadow == GN_SHADOW_VOLUMES && packed_make_edges(packed, 0, &why))
+        return;
     gn_status status = gn_make_plan(&plan, &packed->scene, &packed->settings);
     if (status != GN_OK && status != GN_UNSUPPORTED)
         abort();
@@ -58,27 +60,32 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 }
 
 #ifndef GNOMON_LIBFUZZER
-/* A scene of one triangle: an upright view along -z, a light from above. */
-static size_t make_good(uint8_t good[272])
+enum { GOOD_SIZE = 304 };
+
+/* A scene of a triangle and its back, with their edges: an upright view along -z, a light from above. */
+static size_t make_good(uint8_t good[GOOD_SIZE])
 {
-    static const uint8_t indices[] = {0, 0, 1, 0, 2, 0};
-    memset(good, 0, 272);
-    memcpy(good, "GNOM\1", 5);
+    static const uint8_t indices[] = {0, 0, 1, 0, 2, 0, 2, 0, 1, 0, 0, 0};
+    static const uint32_t edges[] = {0, 4, 1, 3, 2, 5};
+    memset(good, 0, GOOD_SIZE);
+    memcpy(good, "GNOM\2", 5);
     good[16] = good[18] = good[20] = good[22] = 8;
     put(good + 60, 1 << 30), put(good + 76, 1 << 30), put(good + 92, 0xc0000000); /* camera: right, up, forward */
     put(good + 96, 1 << 24), put(good + 104, 1), put(good + 108, 1000);
     put(good + 116, 1 << 30), put(good + 136, 1 << 30), put(good + 144, 0xc0000000);
     for (int i = 0; i < 3; i++) /* the box: its corner and its size */
         put(good + 152 + 4 * i, 0xfffffc00), put(good + 164 + 4 * i, 0x800);
-    put(good + 200, 1), put(good + 204, 1), put(good + 208, 3), put(good + 212, 1), put(good + 216, 2);
-    put(good + 232, 100), put(good + 248, 100);
-    memcpy(good + 256, indices, sizeof indices);
-    return 272;
+    put(good + 200, 1), put(good + 204, 1), put(good + 208, 3), put(good + 212, 2), put(good + 216, 2);
+    put(good + 220, 3), put(good + 236, 100), put(good + 252, 100);
+    memcpy(good + 260, indices, sizeof indices);
+    for (int i = 0; i < 6; i++)
+        put(good + 272 + 4 * i, edges[i]);
+    return GOOD_SIZE;
 }
 
 int main(int argc, char **argv)
 {
-    uint8_t good[272];
+    uint8_t good[GOOD_SIZE];
     size_t size = make_good(good);
     return fuzz_run("changed_packed_scenes_never_crash_the_reader", good, size, tap_cases(argc, argv, 20000));
 }

@@ -12,14 +12,18 @@ enum {
     LIGHT = 112,
     COUNTS = 200,
     MESH = 208,
-    VERTICES = 220,
-    INDICES = 256,
-    PADDING = 262,
-    OBJECT = 264,
-    SIZE = 272
+    EDGE_COUNT = 220,
+    VERTICES = 224,
+    INDICES = 260,
+    PADDING = 266,
+    OBJECT = 268,
+    SIZE = 276
 };
 
-static uint8_t good[SIZE];
+/* The same in that of three triangles, packed with their edges: two share an edge, the third has no area. */
+enum { EDGED_INDICES = 272, EDGES = 292, EDGED_OBJECT = 332, EDGED_SIZE = 340, EDGE_WORDS = 10 };
+
+static uint8_t good[SIZE], edged[EDGED_SIZE];
 
 static uint32_t crc32_of(const uint8_t *bytes, size_t size)
 {
@@ -37,6 +41,24 @@ static void put(uint8_t *bytes, size_t at, int size, uint32_t value)
         bytes[at + (size_t)i] = (uint8_t)(value >> (8 * i));
 }
 
+static uint32_t get(const uint8_t *bytes, size_t at, int size)
+{
+    uint32_t value = 0;
+    for (int i = 0; i < size; i++)
+        value |= (uint32_t)bytes[at + (size_t)i] << (8 * i);
+    return value;
+}
+
+/* The whole file, of exactly this size? */
+static int read_back(const char *name, uint8_t *bytes, size_t size)
+{
+    FILE *file = fopen(sandbox_path(name), "rb");
+    int same = file && fread(bytes, 1, size, file) == size && fgetc(file) == EOF;
+    if (file)
+        fclose(file);
+    return same;
+}
+
 static int render_it(const char *output)
 {
     const char *arguments[] = {sandbox_path("in.gno"), "-o", sandbox_path(output), 0};
@@ -51,12 +73,8 @@ static void make_good(void)
     const char *arguments[] = {sandbox_path("in.scene"), "-o", sandbox_path("in.gno"), 0};
     if (!ok(sandbox_run(command_pack, arguments) == EXIT_DONE, "a_scene_can_be_packed"))
         note("%s", sandbox_message);
-    FILE *file = fopen(sandbox_path("in.gno"), "rb");
-    size_t size = file ? fread(good, 1, SIZE, file) : 0;
-    ok(file && size == SIZE && fgetc(file) == EOF, "its_size_is_as_documented");
-    if (file)
-        fclose(file);
-    static const uint8_t start[] = {'G', 'N', 'O', 'M', 1, 0, 0, 0, SIZE & 255, SIZE >> 8, 0, 0};
+    ok(read_back("in.gno", good, SIZE), "its_size_is_as_documented");
+    static const uint8_t start[] = {'G', 'N', 'O', 'M', 2, 0, 0, 0, SIZE & 255, SIZE >> 8, 0, 0};
     static const uint8_t sizes[] = {8, 0, 6, 0, 16, 0, 12, 0, 23, 0, 0, 0, 13107 & 255, 13107 >> 8};
     static const uint8_t object[] = {0, 0, 0, 0, 255, 128, 0, 0};
     ok(memcmp(good, start, sizeof start) == 0 && memcmp(good + 16, sizes, sizeof sizes) == 0 &&
@@ -87,11 +105,61 @@ static void round_trip(void)
     const char *again[] = {sandbox_path("in.gno"), "-o", sandbox_path("in-again.gno"), 0};
     uint8_t bytes[SIZE];
     status = sandbox_run(command_pack, again);
-    FILE *file = fopen(sandbox_path("in-again.gno"), "rb");
-    ok(status == EXIT_DONE && file && fread(bytes, 1, SIZE, file) == SIZE && memcmp(bytes, good, SIZE) == 0,
+    ok(status == EXIT_DONE && read_back("in-again.gno", bytes, SIZE) && memcmp(bytes, good, SIZE) == 0,
        "packing_a_packed_scene_changes_nothing");
-    if (file)
-        fclose(file);
+}
+
+static int pack_edged(const char *input, const char *output, const char *option)
+{
+    const char *arguments[] = {sandbox_path(input), "-o", sandbox_path(output), option, 0};
+    int status = sandbox_run(command_pack, arguments);
+    if (status != EXIT_DONE)
+        note("%s", sandbox_message);
+    return status == EXIT_DONE;
+}
+
+static void edges_are_packed(void)
+{
+    static const uint32_t pairs[EDGE_WORDS] = {0, GN_NO_HALF_EDGE, 1, 3, 2, GN_NO_HALF_EDGE, 4, GN_NO_HALF_EDGE,
+                                               5, GN_NO_HALF_EDGE};
+    char text[sizeof scene + 1];
+    uint8_t bytes[EDGED_SIZE];
+    int same = 1;
+    strcpy(text, scene);
+    memcpy(strstr(text, "in.obj"), "in.ob2", 6);
+    sandbox_write_text("in-edged.scene", text);
+    sandbox_write_text("in.ob2", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 3 2 4\nf 1 4 4\n");
+    ok(pack_edged("in-edged.scene", "in-edged.gno", "--edges") && read_back("in-edged.gno", edged, EDGED_SIZE),
+       "edges_have_the_documented_size");
+    for (int i = 0; i < EDGE_WORDS; i++)
+        same = same && get(edged, (size_t)(EDGES + 4 * i), 4) == pairs[i];
+    ok(same && get(edged, EDGE_COUNT, 4) == EDGE_WORDS / 2, "edges_stand_where_documented");
+    ok(pack_edged("in-edged.gno", "in-again.gno", "--edges") && read_back("in-again.gno", bytes, EDGED_SIZE) &&
+           memcmp(bytes, edged, EDGED_SIZE) == 0,
+       "packing_them_again_changes_nothing");
+    ok(pack_edged("in-edged.gno", "in-again.gno", 0) && read_back("in-again.gno", bytes, EDGED_SIZE - 40) &&
+           get(bytes, EDGE_COUNT, 4) == 0 && memcmp(bytes + VERTICES, edged + VERTICES, EDGES - VERTICES) == 0,
+       "they_are_left_out_where_nobody_asks_for_them");
+    ok(pack_edged("in-again.gno", "in-again.gno", "--edges") && read_back("in-again.gno", bytes, EDGED_SIZE) &&
+           memcmp(bytes, edged, EDGED_SIZE) == 0,
+       "a_packed_scene_without_edges_gets_the_same_ones");
+}
+
+static void volumes_are_kept(void)
+{
+    problem why;
+    packed_scene packed, back;
+    int done = packed_read(&packed, sandbox_path("in.gno"), 0, &why) == 0 && packed_make_edges(&packed, 0, &why) == 0 &&
+               packed.meshes[0].edge_count == 3;
+    packed.has_method = 1;
+    packed.settings.shadow = GN_SHADOW_VOLUMES;
+    done = done && pack_write(&packed, sandbox_path("in-volumes.gno"), &why) == 0;
+    ok(done && packed_read(&back, sandbox_path("in-volumes.gno"), 0, &why) == 0 &&
+           back.settings.shadow == GN_SHADOW_VOLUMES && back.meshes[0].edge_count == 3 &&
+           memcmp(back.meshes[0].edges, packed.meshes[0].edges, 3 * sizeof(gn_mesh_edge)) == 0,
+       "shadow_volumes_and_edges_come_back");
+    packed_free(&packed);
+    packed_free(&back);
 }
 
 static void a_method_is_kept(void)
@@ -108,15 +176,18 @@ static void a_method_is_kept(void)
     packed_free(&packed);
 }
 
-static const struct {
+typedef struct change {
     const char *promise;
     int at, size;
     uint32_t value;
     const char *where, *what;
-} broken[] = {
+} change;
+
+static const change broken[] = {
     {"another_magic_number", 0, 1, 'X', ": byte 0", "GNOM"},
-    {"another_version", 4, 4, 2, ": byte 4", "version 2"},
-    {"a_wrong_size", 8, 4, SIZE + 1, ": byte 8", "says that it has 273 bytes"},
+    {"the_version_before", 4, 4, 1, ": byte 4", "version 1; expected 2"},
+    {"a_version_to_come", 4, 4, 3, ": byte 4", "version 3; expected 2"},
+    {"a_wrong_size", 8, 4, SIZE + 1, ": byte 8", "says that it has 277 bytes"},
     {"an_image_of_no_width", 16, 2, 0, ": byte 16", "image width is 0"},
     {"an_image_of_4097_rows", 18, 2, 4097, ": byte 18", "image height"},
     {"a_map_of_no_width", 20, 2, 0, ": byte 20", "map width"},
@@ -126,7 +197,8 @@ static const struct {
     {"culling_without_a_method", 34, 1, 1, ": byte 34", "cull"},
     {"a_surface_without_a_method", 36, 1, 1, ": byte 36", "surface"},
     {"a_bias_without_a_method", 40, 4, 1, ": byte 40", "bias"},
-    {"padding_that_is_not_zero", 38, 2, 1, ": byte 38", "padding"},
+    {"volumes_without_a_method", 38, 1, 1, ": byte 38", "shadow"},
+    {"padding_that_is_not_zero", 39, 1, 1, ": byte 39", "padding"},
     {"an_unknown_projection", CAMERA, 1, 2, ": byte 44", "projection"},
     {"an_eye_out_of_range", CAMERA + 4, 4, 0x7fffffff, ": byte 48", "eye"},
     {"an_eye_of_the_least_number", CAMERA + 8, 4, 0x80000000, ": byte 52", "eye"},
@@ -144,34 +216,63 @@ static const struct {
     {"a_light_whose_box_is_far_away", LIGHT + 40, 4, 0x7fffffff, ": byte 152", "corner of the light's box"},
     {"no_meshes", COUNTS, 4, 0, ": byte 200", "number of meshes"},
     {"more_meshes_than_bytes", COUNTS, 4, 0x10000000, ": byte 200", "number of meshes"},
-    {"one_mesh_too_many", COUNTS, 4, 2, ": byte 264", "ends within a mesh"},
+    {"one_mesh_too_many", COUNTS, 4, 2, ": byte 268", "ends within a mesh"},
     {"no_objects", COUNTS + 4, 4, 0, ": byte 204", "number of objects"},
-    {"one_object_too_many", COUNTS + 4, 4, 2, ": byte 264", "bytes left for the objects"},
+    {"one_object_too_many", COUNTS + 4, 4, 2, ": byte 268", "bytes left for the objects"},
     {"a_mesh_without_vertices", MESH, 4, 0, ": byte 208", "vertex count"},
-    {"more_vertices_than_bytes", MESH, 4, 0x7fffffff, ": byte 220", "ends within a mesh"},
+    {"more_vertices_than_bytes", MESH, 4, 0x7fffffff, ": byte 224", "ends within a mesh"},
     {"a_mesh_without_triangles", MESH + 4, 4, 0, ": byte 212", "triangle count"},
-    {"more_triangles_than_bytes", MESH + 4, 4, 0x7fffffff, ": byte 220", "ends within a mesh"},
+    {"more_triangles_than_bytes", MESH + 4, 4, 0x7fffffff, ": byte 224", "ends within a mesh"},
     {"indices_of_one_byte", MESH + 8, 1, 1, ": byte 216", "bytes an index"},
     {"indices_of_three_bytes", MESH + 8, 1, 3, ": byte 220", "bytes an index"},
+    {"padding_in_a_mesh", MESH + 10, 2, 1, ": byte 218", "padding"},
+    {"more_edges_than_half-edges", EDGE_COUNT, 4, 4, ": byte 220", "edge count is 4; expected 0 to 3"},
+    {"edges_that_are_missing", EDGE_COUNT, 4, 3, ": byte 224", "ends within a mesh"},
     {"a_mesh_neither_closed_nor_open", MESH + 9, 1, 2, ": byte 217", "closed"},
-    {"a_vertex_out_of_range", VERTICES + 12, 4, (1 << 24) + 1, ": byte 232", "vertex coordinate"},
-    {"an_index_beyond_the_vertices", INDICES + 2, 2, 3, ": byte 258", "index"},
-    {"padding_after_the_indices", PADDING, 1, 7, ": byte 262", "padding"},
-    {"an_object_of_no_mesh", OBJECT, 4, 1, ": byte 264", "mesh of an object"},
-    {"padding_after_a_colour", OBJECT + 7, 1, 1, ": byte 271", "padding"},
+    {"a_vertex_out_of_range", VERTICES + 12, 4, (1 << 24) + 1, ": byte 236", "vertex coordinate"},
+    {"an_index_beyond_the_vertices", INDICES + 2, 2, 3, ": byte 262", "index"},
+    {"padding_after_the_indices", PADDING, 1, 7, ": byte 266", "padding"},
+    {"an_object_of_no_mesh", OBJECT, 4, 1, ": byte 268", "mesh of an object"},
+    {"padding_after_a_colour", OBJECT + 7, 1, 1, ": byte 275", "padding"},
 };
+
+static const change broken_edges[] = {
+    {"an_edge_too_few", EDGE_COUNT, 4, 4, ": byte 324", "half-edge 5 stands in no edge"},
+    {"an_edge_too_many", EDGE_COUNT, 4, 6, ": byte 332", "half-edge 0 stands in another edge already"},
+    {"more_edges_than_bytes", EDGE_COUNT, 4, 9, ": byte 224", "and 9 edges"},
+    {"a_half-edge_beyond_the_triangles", EDGES, 4, 9, ": byte 292", "half-edge is 9; expected 0 to 8"},
+    {"an_edge_without_a_half-edge", EDGES, 4, GN_NO_HALF_EDGE, ": byte 292", "expected 0 to 8"},
+    {"a_first_half-edge_with_a_flag", EDGES, 4, GN_SAME_DIRECTION, ": byte 292", "expected 0 to 8"},
+    {"a_second_half-edge_beyond_the_triangles", EDGES + 12, 4, 9, ": byte 304", "half-edge is 9; expected 0 to 8"},
+    {"one_with_the_flag", EDGES + 12, 4, 9 | GN_SAME_DIRECTION, ": byte 304", "half-edge is 9; expected 0 to 8"},
+    {"one_that_is_almost_none", EDGES + 12, 4, GN_NO_HALF_EDGE - 1, ": byte 304", "expected 0 to 8"},
+    {"a_half-edge_in_two_edges", EDGES + 8, 4, 0, ": byte 300", "half-edge 0 stands in another edge already"},
+    {"a_half-edge_paired_with_itself", EDGES + 4, 4, 0, ": byte 296", "half-edge 0 stands in another edge already"},
+    {"a_half-edge_left_out", EDGES + 12, 4, GN_NO_HALF_EDGE, ": byte 332", "half-edge 3 stands in no edge"},
+    {"a_half-edge_of_a_triangle_without_area", EDGES, 4, 6, ": byte 292", "two corners at one place"},
+    {"a_wrong_direction", EDGES + 12, 4, 3 | GN_SAME_DIRECTION, ": byte 300", "expected them to run"},
+    {"a_pair_with_one_end_in_common", EDGES + 4, 4, 2, ": byte 292", "half-edges 0 and 2 make no edge"},
+    {"a_pair_without_a_common_end", EDGES + 4, 4, 5, ": byte 292", "half-edges 0 and 5 make no edge"},
+};
+
+static int change_is_refused(const uint8_t *whole, size_t size, const change *c)
+{
+    uint8_t bytes[EDGED_SIZE];
+    memcpy(bytes, whole, size);
+    put(bytes, (size_t)c->at, c->size, c->value);
+    put(bytes, 12, 4, crc32_of(bytes + 16, size - 16));
+    sandbox_write("in.gno", bytes, size);
+    return sandbox_refused(render_it("out.ppm"), "in.gno", c->where, c->what);
+}
 
 static void broken_files(void)
 {
     uint8_t bytes[SIZE + 1];
-    for (size_t i = 0; i < sizeof broken / sizeof *broken; i++) {
-        memcpy(bytes, good, SIZE);
-        put(bytes, (size_t)broken[i].at, broken[i].size, broken[i].value);
-        put(bytes, 12, 4, crc32_of(bytes + 16, SIZE - 16));
-        sandbox_write("in.gno", bytes, SIZE);
-        ok(sandbox_refused(render_it("out.ppm"), "in.gno", broken[i].where, broken[i].what),
-           "%s_is_refused_with_its_place", broken[i].promise);
-    }
+    for (size_t i = 0; i < sizeof broken / sizeof *broken; i++)
+        ok(change_is_refused(good, SIZE, &broken[i]), "%s_is_refused_with_its_place", broken[i].promise);
+    for (size_t i = 0; i < sizeof broken_edges / sizeof *broken_edges; i++)
+        ok(change_is_refused(edged, EDGED_SIZE, &broken_edges[i]), "%s_is_refused_with_its_place",
+           broken_edges[i].promise);
     memcpy(bytes, good, SIZE);
     bytes[VERTICES] ^= 1;
     sandbox_write("in.gno", bytes, SIZE);
@@ -181,19 +282,114 @@ static void broken_files(void)
     put(bytes, 8, 4, SIZE + 1);
     put(bytes, 12, 4, crc32_of(bytes + 16, SIZE + 1 - 16));
     sandbox_write("in.gno", bytes, SIZE + 1);
-    ok(sandbox_refused(render_it("out.ppm"), "in.gno", ": byte 264", "9 bytes left"), "a_byte_too_many_is_refused");
+    ok(sandbox_refused(render_it("out.ppm"), "in.gno", ": byte 268", "9 bytes left"), "a_byte_too_many_is_refused");
+}
+
+/* A scene with its size and checksum put right; 0 if it is accepted. */
+static int parse(uint8_t *bytes, size_t size)
+{
+    problem why;
+    packed_scene packed;
+    put(bytes, 8, 4, (uint32_t)size);
+    put(bytes, 12, 4, crc32_of(bytes + 16, size - 16));
+    int result = pack_parse(&packed, "f", bytes, size, &why);
+    packed_free(&packed);
+    return result;
+}
+
+/* The second triangle turned round: half-edge 3 then runs as half-edge 1 does. */
+static void both_directions(void)
+{
+    uint8_t bytes[EDGED_SIZE];
+    memcpy(bytes, edged, EDGED_SIZE);
+    put(bytes, EDGED_INDICES + 6, 4, 1 | 2 << 16);
+    ok(parse(bytes, EDGED_SIZE) == -1, "two_half-edges_of_one_direction_are_refused_without_the_flag");
+    put(bytes, EDGES + 12, 4, 3 | GN_SAME_DIRECTION);
+    ok(parse(bytes, EDGED_SIZE) == 0, "and_accepted_with_it");
+    memcpy(bytes, edged, EDGED_SIZE);
+    put(bytes, 33, 1, 1);
+    put(bytes, 38, 1, GN_SHADOW_VOLUMES + 1);
+    ok(parse(bytes, EDGED_SIZE) == -1, "a_way_to_make_shadows_that_is_unknown_is_refused");
+    memcpy(bytes, edged, EDGED_SIZE);
+    put(bytes, EDGES + 12, 4, GN_NO_HALF_EDGE);
+    put(bytes, EDGES + 36, 4, 3);
+    ok(parse(bytes, EDGED_SIZE) == -1, "half-edges_paired_with_strangers_are_refused");
+}
+
+/* Where a half-edge of the two triangles that have an area starts and ends. */
+static uint32_t start_of(uint32_t half)
+{
+    return get(edged, EDGED_INDICES + 2 * half, 2);
+}
+
+static uint32_t end_of(uint32_t half)
+{
+    return start_of(half < 3 ? (half + 1) % 3 : 3 + (half + 1) % 3);
+}
+
+/* What gn_mesh_edge promises, for that mesh. */
+static int promise_holds(const uint8_t *bytes)
+{
+    int uses[6] = {0};
+    for (int i = 0; i < EDGE_WORDS / 2; i++) {
+        uint32_t a = get(bytes, (size_t)(EDGES + 8 * i), 4), second = get(bytes, (size_t)(EDGES + 8 * i + 4), 4);
+        uint32_t b = second % GN_SAME_DIRECTION, same = second / GN_SAME_DIRECTION;
+        if (a >= 6 || (second != GN_NO_HALF_EDGE && b >= 6))
+            return 0;
+        uses[a]++;
+        if (second == GN_NO_HALF_EDGE)
+            continue;
+        uses[b]++;
+        if (same ? start_of(a) != start_of(b) || end_of(a) != end_of(b)
+                 : start_of(a) != end_of(b) || end_of(a) != start_of(b))
+            return 0;
+    }
+    for (int i = 0; i < 6; i++)
+        if (uses[i] != 1)
+            return 0;
+    return 1;
+}
+
+/* Edges in another order are as good, and so is each one turned round; one word more or less is a mistake or is not. */
+static void random_edges(void)
+{
+    uint64_t state = 1;
+    int accepted = 0, wrong = 0, cases = 200000;
+    for (int i = 0; i < cases && !wrong; i++) {
+        uint8_t bytes[EDGED_SIZE];
+        uint64_t random = tap_random(&state);
+        memcpy(bytes, edged, EDGED_SIZE);
+        for (int swaps = 0; swaps < 6; swaps++) {
+            uint64_t r = tap_random(&state);
+            size_t a = EDGES + 8 * (r % 5), b = EDGES + 8 * ((r >> 16) % 5), size = r >> 32 & 1 ? 8 : 4;
+            uint32_t first = get(bytes, a, 4), second = get(bytes, a + 4, 4);
+            put(bytes, a, 4, get(bytes, b, 4)), put(bytes, b, 4, first);
+            if (size == 8)
+                put(bytes, a + 4, 4, get(bytes, b + 4, 4)), put(bytes, b + 4, 4, second);
+        }
+        if (random % 4 == 0)
+            put(bytes, EDGES + 4 * ((random >> 8) % EDGE_WORDS), 4,
+                (uint32_t)((random >> 16) % 7) | (random >> 32 & 1 ? GN_SAME_DIRECTION : 0));
+        int result = parse(bytes, EDGED_SIZE);
+        wrong = (result == 0) != promise_holds(bytes);
+        accepted += result == 0;
+        if (wrong)
+            note("case %d: %s", i, result ? "refused" : "accepted");
+    }
+    ok(!wrong && accepted > 100 && accepted < cases - 100,
+       "edges_changed_at_random_are_accepted_where_they_keep_the_promise_alone");
 }
 
 /* Every shorter file, with and without a size and checksum that fit. */
-static void truncated_files(void)
+static int refused_when_cut_off(const uint8_t *whole, size_t whole_size)
 {
-    int refused = 0;
+    size_t refused = 0;
     problem why;
     packed_scene packed;
-    for (size_t size = 0; size < SIZE; size++)
+    for (size_t size = 0; size < whole_size; size++)
         for (int fitting = 0; fitting < 2; fitting++) {
             uint8_t *bytes = malloc(size + 1); /* of its own, so that the address sanitizer sees reads beyond it */
-            memcpy(bytes, good, size);
+            memcpy(bytes, whole, size);
             if (fitting && size >= 16) {
                 put(bytes, 8, 4, (uint32_t)size);
                 put(bytes, 12, 4, crc32_of(bytes + 16, size - 16));
@@ -203,7 +399,13 @@ static void truncated_files(void)
             packed_free(&packed);
             free(bytes);
         }
-    ok(refused == 2 * SIZE, "a_file_cut_off_anywhere_is_refused");
+    return refused == 2 * whole_size;
+}
+
+static void truncated_files(void)
+{
+    ok(refused_when_cut_off(good, SIZE), "a_file_cut_off_anywhere_is_refused");
+    ok(refused_when_cut_off(edged, EDGED_SIZE), "a_file_with_edges_cut_off_anywhere_is_refused");
 }
 
 int main(void)
@@ -212,7 +414,11 @@ int main(void)
     make_good();
     round_trip();
     a_method_is_kept();
+    edges_are_packed();
+    volumes_are_kept();
     broken_files();
+    both_directions();
+    random_edges();
     truncated_files();
     sandbox_close();
     return tap_done();

@@ -14,11 +14,13 @@
 static char sandbox_folder[256];
 static char sandbox_message[4096]; /* what the latest command said on standard error */
 
+/* Valid until the function was called 16 times more: make paths anew for each command. */
 static TAP_UNUSED const char *sandbox_path(const char *name)
 {
-    static char paths[8][512];
+    enum { PATHS = 16 };
+    static char paths[PATHS][512];
     static int next;
-    char *path = paths[next++ % 8];
+    char *path = paths[next++ % PATHS];
     snprintf(path, sizeof paths[0], "%s/%s", sandbox_folder, name);
     return path;
 }
@@ -91,7 +93,7 @@ static TAP_UNUSED int sandbox_redirect(FILE *stream, int file)
 }
 
 /* Run a command in this process with up to eight arguments, 0 after the last. Returns its exit status; standard output
- * is dropped, standard error is kept in sandbox_message. */
+ * is kept in the file in-output, standard error in sandbox_message. */
 static TAP_UNUSED int sandbox_run(sandbox_command command, const char *const arguments[])
 {
     char *argv[9];
@@ -99,7 +101,7 @@ static TAP_UNUSED int sandbox_run(sandbox_command command, const char *const arg
     for (; arguments[argc] && argc < 8; argc++)
         argv[argc] = (char *)(uintptr_t)arguments[argc];
     argv[argc] = 0;
-    int out = sandbox_redirect(stdout, open("/dev/null", O_WRONLY));
+    int out = sandbox_redirect(stdout, open(sandbox_path("in-output"), O_RDWR | O_CREAT | O_TRUNC, 0600));
     int err = sandbox_redirect(stderr, open(sandbox_path("in-messages"), O_RDWR | O_CREAT | O_TRUNC, 0600));
     int status = command(argc, argv);
     sandbox_redirect(stdout, out);

@@ -1,0 +1,282 @@
+/* Runs the hard cases: TAP for `make test`, or the table and the pictures of docs/stability.md.
+ *
+ *     hard [--short] [CASE...]           promises, one a line
+ *     hard --table [CASE...]             rows of the table, in Markdown
+ *     hard --pictures FOLDER [CASE...]   CASE.ppm: what a method gives, and its difference from the truth
+ *     hard --write FOLDER [CASE...]      CASE.gno: the scenes, for `gnomon render`
+ */
+#include "hard.h"
+
+#include "image.h"
+#include "memory.h"
+#include "pack.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum mode { MODE_TEST, MODE_TABLE, MODE_PICTURES, MODE_WRITE } mode;
+
+static struct {
+    mode mode;
+    const char *folder;
+    int is_short;
+    unsigned tests, failures;
+} run;
+
+int hard_is_short(void)
+{
+    return run.is_short;
+}
+
+int promise(hard_row *row, int condition, const char *reason, const char *name, ...)
+{
+    va_list arguments;
+    *(condition ? &row->met : &row->unmet) += 1;
+    run.tests++;
+    run.failures += !condition && !reason;
+    if (run.mode != MODE_TEST)
+        return condition;
+    printf("%s %u - ", condition ? "ok" : "not ok", run.tests);
+    va_start(arguments, name);
+    vprintf(name, arguments);
+    va_end(arguments);
+    if (reason)
+        printf(" # TODO %s", reason);
+    printf("\n");
+    fflush(stdout);
+    return condition;
+}
+
+void say(const char *format, ...)
+{
+    va_list arguments;
+    FILE *out = run.mode == MODE_TEST ? stdout : stderr;
+    fprintf(out, "# ");
+    va_start(arguments, format);
+    vfprintf(out, format, arguments);
+    va_end(arguments);
+    fprintf(out, "\n");
+}
+
+/* ---- one case -------------------------------------------------------------------------------------------------- */
+
+static int within(double value, double least, double most)
+{
+    return value >= least && value <= most;
+}
+
+static void check_outcome(hard_row *row, int method)
+{
+    outcome *o = &row->outcomes[method];
+    const hard_case *c = row->about;
+    const expectation *e = &c->methods[method];
+    double shadow = percent_of(row, method == METHOD_VOLUMES ? o->false_shadow : o->own_shadow);
+    double light = percent_of(row, method == METHOD_VOLUMES ? o->false_light : o->own_light);
+    o->met = within(shadow, e->shadow_least, e->shadow_most) && within(light, e->light_least, e->light_most);
+    if (!promise(row, o->met, e->unmet, "%s_%s_errs_as_derived", c->name, method_names[method]))
+        say("of its own: false shadow %.3f %%, expected %g to %g; false light %.3f %%, expected %g to %g", shadow,
+            e->shadow_least, e->shadow_most, light, e->light_least, e->light_most);
+    if (!promise(row, o->coverage == 0, c->coverage_unmet, "%s_%s_sees_the_surfaces_of_the_truth", c->name,
+                 method_names[method]))
+        say("%llu pixels see a surface in one mask alone", (unsigned long long)o->coverage);
+}
+
+static void run_methods(hard_row *row)
+{
+    for (int method = 0; method < METHOD_COUNT; method++) {
+        gn_settings settings = method_settings(&row->packed, method, row->about->flags);
+        row_measure(row, method, &settings);
+        if (row->outcomes[method].ran)
+            check_outcome(row, method);
+        else if (method != METHOD_VOLUMES &&
+                 !promise(row, 0, 0, "%s_%s_renders", row->about->name, method_names[method]))
+            say("%s", row->outcomes[method].refusal);
+    }
+}
+
+static void run_case(hard_row *row)
+{
+    const hard_case *c = row->about;
+    if (c->run) {
+        c->run(row);
+    } else if (!row_begin(row, c->build, !(c->flags & NO_NEAR))) {
+        run_methods(row);
+        if (c->check)
+            c->check(row);
+    }
+    row_end(row);
+}
+
+/* ---- the table ------------------------------------------------------------------------------------------------- */
+
+static void print_cell(const hard_row *row, int method)
+{
+    const outcome *o = &row->outcomes[method];
+    if (!o->ran) {
+        printf(" - |");
+        return;
+    }
+    int own = method == METHOD_VOLUMES ? o->false_shadow + o->false_light > 0 : o->own_shadow + o->own_light > 0;
+    const char *mark = own ? "**" : "";
+    printf(" %s%.1f + %.1f%s |", mark, o->shadow_percent, o->light_percent, mark);
+}
+
+static void print_row(const hard_row *row)
+{
+    const hard_case *c = row->about;
+    printf("| %s%s%s%s | %s%s%s |", c->title, c->source[0] ? " (" : "", c->source, c->source[0] ? ")" : "", c->expected,
+           row->remark[0] ? " " : "", row->remark);
+    for (int method = 0; method < METHOD_COUNT; method++)
+        print_cell(row, method);
+    printf(" %s%s |\n", c->advice, row->unmet ? " **Not met.**" : "");
+}
+
+static void print_group(const char *group)
+{
+    printf("\n## %s\n\n| case | expected |", group);
+    for (int method = 0; method < METHOD_COUNT; method++)
+        printf(" %s |", method_names[method]);
+    printf(" what to know |\n|---|---|");
+    for (int method = 0; method < METHOD_COUNT; method++)
+        printf("---|");
+    printf("---|\n");
+}
+
+/* ---- pictures and scenes --------------------------------------------------------------------------------------- */
+
+static int write_image(const image *picture, const char *name, const char *kind)
+{
+    char path[1000];
+    problem why;
+    snprintf(path, sizeof path, "%s/%s%s.ppm", run.folder, name, kind);
+    if (!image_write(picture, path, &why))
+        return 0;
+    say("%s", why.text);
+    return 1;
+}
+
+static int write_pictures(hard_row *row)
+{
+    const hard_case *c = row->about;
+    int failed = row_begin(row, c->build, 0);
+    outcome *o = &row->outcomes[c->picture - 1];
+    gn_settings settings = method_settings(&row->packed, c->picture - 1, c->flags);
+    image colours = {.width = settings.width, .height = settings.height, .channels = 3, .sample = IMAGE_U8};
+    problem why;
+    if (!failed && method_render(&row->packed, &settings, &o->mask, (uint8_t **)&colours.samples, &why)) {
+        say("%s", why.text);
+        failed = 1;
+    }
+    if (!failed) {
+        image difference = comparison_picture(&(comparison_input){
+            settings.width, settings.height, o->mask, row->truth.mask, row->near, COMPARISON_EDGE_BAND});
+        failed = write_image(&colours, c->name, "") || write_image(&difference, c->name, ".difference");
+        image_free(&difference);
+    }
+    image_free(&colours);
+    row_end(row);
+    return failed;
+}
+
+static int write_scene(hard_row *row)
+{
+    char path[1000];
+    problem why;
+    builder b;
+    build_begin(&b);
+    row->about->build(&b);
+    int failed = build_finish(&b, &row->packed);
+    snprintf(path, sizeof path, "%s/%s.gno", run.folder, row->about->name);
+    if (!failed && pack_write(&row->packed, path, &why)) {
+        say("%s", why.text);
+        failed = 1;
+    }
+    build_free(&b);
+    packed_free(&row->packed);
+    return failed;
+}
+
+/* ---- the program ----------------------------------------------------------------------------------------------- */
+
+static int is_asked_for(const hard_case *c, int names, char **name)
+{
+    for (int i = 0; i < names; i++)
+        if (strcmp(name[i], c->name) == 0)
+            return 1;
+    return names == 0;
+}
+
+static int do_case(const hard_case *c)
+{
+    hard_row *row = memory_take(1, sizeof *row);
+    int failed = 0;
+    row->about = c;
+    if (run.mode == MODE_PICTURES)
+        failed = c->picture ? write_pictures(row) : 0;
+    else if (run.mode == MODE_WRITE)
+        failed = c->build ? write_scene(row) : 0;
+    else
+        run_case(row);
+    if (run.mode == MODE_TABLE)
+        print_row(row);
+    free(row);
+    return failed;
+}
+
+static int do_cases(int names, char **name)
+{
+    const hard_list *lists[] = {&papers_cases, &light_cases, &geometry_cases, &number_cases, &sweep_cases};
+    const char *group = "";
+    int failed = 0, done = 0;
+    for (size_t l = 0; l < sizeof lists / sizeof *lists; l++)
+        for (size_t i = 0; i < lists[l]->count; i++) {
+            const hard_case *c = &lists[l]->cases[i];
+            if (!is_asked_for(c, names, name) || (run.is_short && c->flags & LONG))
+                continue;
+            if (run.mode == MODE_TABLE && strcmp(group, c->group) != 0)
+                print_group(group = c->group);
+            failed |= do_case(c);
+            done++;
+        }
+    if (!done)
+        say("no such case");
+    return failed || !done;
+}
+
+static int usage(void)
+{
+    fputs("usage: hard [--short] [--table | --pictures FOLDER | --write FOLDER] [CASE...]\n", stderr);
+    return 2;
+}
+
+int main(int argc, char **argv)
+{
+#if defined GN_CHECKED || defined __SANITIZE_ADDRESS__
+    run.is_short = 1;
+#endif
+    int i = 1;
+    for (; i < argc && argv[i][0] == '-'; i++) {
+        int takes_folder = !strcmp(argv[i], "--pictures") || !strcmp(argv[i], "--write");
+        if (takes_folder && i + 1 == argc)
+            return usage();
+        if (!strcmp(argv[i], "--short"))
+            run.is_short = 1;
+        else if (!strcmp(argv[i], "--table"))
+            run.mode = MODE_TABLE;
+        else if (takes_folder)
+            run.mode = argv[i][2] == 'p' ? MODE_PICTURES : MODE_WRITE;
+        else
+            return usage();
+        if (takes_folder)
+            run.folder = argv[++i];
+    }
+    int failed = do_cases(argc - i, argv + i);
+    if (run.mode != MODE_TEST)
+        return failed ? 2 : 0;
+    printf("1..%u\n", run.tests);
+    if (run.failures)
+        say("%u of %u failed", run.failures, run.tests);
+    return failed || run.failures != 0;
+}

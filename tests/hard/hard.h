@@ -1,0 +1,152 @@
+/* The hard cases: scenes that are known to break shadow maps, each with an outcome that was worked out by hand.
+ *
+ * A case is a scene in memory (builder.h). Its truth (host/truth.h) is checked first against arithmetic done by hand,
+ * where the case has a closed form of its shadow, and against a second ray caster (footprint.h). Then every method
+ * renders it. A pixel that is wrong, is not near a tie of the truth, and is not explained by the texel (footprint.h) is
+ * an error of the method's own: of these each case says how many there must be, from geometry, never from what the
+ * program gave. Where nothing is said there must be none.
+ *
+ * The same cases make the table of docs/stability.md and its pictures.
+ */
+#ifndef HARD_H
+#define HARD_H
+
+#include "builder.h"
+#include "comparison.h"
+#include "footprint.h"
+#include "frame.h"
+#include "truth.h"
+
+enum method {
+    METHOD_CONSTANT,
+    METHOD_MIDPOINT,
+    METHOD_DUAL,
+    METHOD_SECOND,
+    METHOD_MIXED,
+    METHOD_AUTO,
+    METHOD_VOLUMES,
+    METHOD_COUNT
+};
+
+extern const char *const method_names[METHOD_COUNT];
+
+/* Own errors in per cent of the pixels that see a surface, at least and at most; all zero: none. Of volumes: errors of
+ * any kind that are not near a tie. */
+typedef struct expectation {
+    double shadow_least, shadow_most, light_least, light_most;
+    const char *unmet; /* why the promise does not hold today; 0: it must */
+} expectation;
+
+/* Nothing is derived for this method. */
+#define ANYTHING                                                                                                       \
+    {                                                                                                                  \
+        0, 100, 0, 100, 0                                                                                              \
+    }
+#define SHADOW(least, most)                                                                                            \
+    {                                                                                                                  \
+        least, most, 0, 0, 0                                                                                           \
+    }
+#define LIGHT(least, most)                                                                                             \
+    {                                                                                                                  \
+        0, 0, least, most, 0                                                                                           \
+    }
+
+typedef struct outcome {
+    int ran; /* 0: the method does not exist yet, or the core refused */
+    int met;
+    char refusal[160];
+    uint8_t *mask;
+    uint64_t false_shadow, false_light, own_shadow, own_light, coverage; /* pixels; coverage: not near a tie */
+    double shadow_percent, light_percent; /* false shadow and light, of the pixels that see a surface */
+    double worst; /* greatest distance of a wrong pixel from the true shadow edge on the image, pixels; 0: none */
+} outcome;
+
+struct hard_case;
+
+typedef struct hard_row {
+    const struct hard_case *about;
+    packed_scene packed;
+    footprint footprint;
+    truth truth;
+    double unit; /* world integers a metre */
+    int32_t origin[3];
+    uint8_t *near; /* near a tie, or on one */
+    outcome outcomes[METHOD_COUNT];
+    int met, unmet; /* promises kept and broken */
+    char remark[400]; /* figures of this run for the table */
+} hard_row;
+
+enum { BY_HAND_SHADOWED = 0, BY_HAND_LIT = 254, BY_HAND_UNSAID = 1 };
+
+/* Flags of a case. */
+enum {
+    NO_SHADOW = 1,    /* truly no shadowed pixel: `expected` says why */
+    NO_LIGHT = 2,     /* truly no lit pixel */
+    LONG = 4,         /* not in the short list that the slower builds run */
+    CULL_BACK = 8,    /* midpoint: with back faces culled */
+    CULL_NONE = 16,   /* dual: without culling */
+    NO_NEAR = 32      /* ties are not looked for: five times as fast */
+};
+
+typedef struct hard_case {
+    const char *name; /* of the TAP lines and files */
+    const char *group, *source;
+    const char *title, *expected, *advice; /* of the table */
+    void (*build)(builder *b);
+    int (*by_hand)(const double point[3]); /* metres -> BY_HAND_...: from a closed form */
+    void (*check)(hard_row *row);          /* promises beyond those of the methods */
+    void (*run)(hard_row *row);            /* in place of build: a sweep that fills the row itself */
+    unsigned flags;
+    int picture; /* method of the picture, + 1; 0: none */
+    const char *coverage_unmet; /* why some pixel sees another surface than in truth; 0: none may */
+    expectation methods[METHOD_COUNT];
+} hard_case;
+
+typedef struct hard_list {
+    const hard_case *cases;
+    size_t count;
+} hard_list;
+
+extern const hard_list papers_cases, light_cases, geometry_cases, number_cases, sweep_cases;
+
+/* Count a promise, and report it as a line of TAP unless a table is being made. reason: not 0 where it is known not to
+ * hold: then it is a TODO. Returns condition. */
+int promise(hard_row *row, int condition, const char *reason, const char *name, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* A diagnostic line after a promise that was broken. */
+void say(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Is this the short list, for builds that run ten times slower? */
+int hard_is_short(void);
+
+/* ---- measuring (measure.c) --------------------------------------------------------------------------------------- */
+
+/* The settings of a method for a scene: presets as those of `gnomon render --method`. Mask on, no colour. */
+gn_settings method_settings(const packed_scene *packed, int method, unsigned flags);
+
+/* Render; the mask (width x height) is on the heap. 0, or -1 and the problem. colour: not 0: the colours, 3 bytes a
+ * pixel. */
+int method_render(packed_scene *packed, const gn_settings *settings, uint8_t **mask, uint8_t **colour, problem *why);
+
+/* Compare o->mask with the row's truth. */
+void measure(hard_row *row, outcome *o);
+
+double percent_of(const hard_row *row, uint64_t count);
+
+/* Build the scene, make the truth and check it. 0, or -1: a promise was broken, nothing can be measured. */
+int row_begin(hard_row *row, void (*build)(builder *b), int with_near);
+
+/* Render with one method and measure. */
+void row_measure(hard_row *row, int method, const gn_settings *settings);
+
+/* Free what an outcome holds, and clear it. */
+void row_forget(outcome *o);
+
+/* Add figures to what the table says is expected. */
+void row_remark(hard_row *row, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Free the scene, the truth and the masks; figures stay. */
+void row_end(hard_row *row);
+
+#endif

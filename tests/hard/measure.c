@@ -1,0 +1,203 @@
+/* One method on one scene, and what is wrong with its mask. */
+#include "hard.h"
+
+#include "memory.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const method_names[METHOD_COUNT] = {"constant", "midpoint", "dual",   "second_depth",
+                                                "mixed",    "auto",     "volumes"};
+
+static int all_are_closed(const packed_scene *packed)
+{
+    for (uint32_t i = 0; i < packed->mesh_count; i++)
+        if (!packed->meshes[i].closed)
+            return 0;
+    return 1;
+}
+
+gn_settings method_settings(const packed_scene *packed, int method, unsigned flags)
+{
+    static const uint8_t surfaces[] = {GN_CONSTANT, GN_MIDPOINT, GN_DUAL, GN_SECOND, GN_MIXED};
+    gn_settings s = packed->settings;
+    s.mask = 1;
+    s.format = GN_NO_COLOUR;
+    s.cull = GN_CULL_AUTO;
+    s.layers = GN_LAYERS_AUTO;
+    if (method == METHOD_AUTO) {
+        s.surface = all_are_closed(packed) ? GN_SECOND : GN_MIXED;
+        s.bias = (gn_bias){GN_BIAS_TEXELS, 8 << 16};
+    } else if (method == METHOD_VOLUMES) {
+        s.shadow = GN_SHADOW_VOLUMES;
+    } else {
+        s.surface = surfaces[method];
+    }
+    if (method == METHOD_MIDPOINT && flags & CULL_BACK)
+        s.cull = GN_CULL_BACK;
+    if (method == METHOD_DUAL && flags & CULL_NONE)
+        s.cull = GN_CULL_NONE;
+    return s;
+}
+
+/* Copied out of the frame, which may have more rows. */
+static uint8_t *keep(const uint8_t *image, size_t bytes)
+{
+    uint8_t *copy = memory_take(bytes, 1);
+    memcpy(copy, image, bytes);
+    return copy;
+}
+
+int method_render(packed_scene *packed, const gn_settings *settings, uint8_t **mask, uint8_t **colour, problem *why)
+{
+    frame f;
+    gn_settings s = *settings;
+    size_t count = (size_t)s.width * s.height;
+    s.format = colour ? GN_RGB888 : GN_NO_COLOUR;
+    if (s.shadow == GN_SHADOW_VOLUMES && packed_make_edges(packed, 0, why))
+        return -1;
+    int result = frame_open(&f, &packed->scene, &s, 0, why) || frame_light_pass(&f, &packed->light, why) ||
+                         frame_camera_pass(&f, &packed->camera, why)
+                     ? -1
+                     : 0;
+    if (!result && mask)
+        *mask = keep(f.mask, count);
+    if (!result && colour)
+        *colour = keep(f.colour, 3 * count);
+    frame_close(&f);
+    return result;
+}
+
+double percent_of(const hard_row *row, uint64_t count)
+{
+    return row->truth.surface ? 100.0 * (double)count / (double)row->truth.surface : 0;
+}
+
+void measure(hard_row *row, outcome *o)
+{
+    const truth *t = &row->truth;
+    comparison c;
+    comparison_make(&c, &(comparison_input){t->width, t->height, o->mask, t->mask, row->near, COMPARISON_EDGE_BAND});
+    const comparison_figures *f = &c.not_near;
+    o->false_shadow = f->false_shadow.pixels;
+    o->false_light = f->false_light.pixels;
+    o->shadow_percent = percent_of(row, o->false_shadow);
+    o->light_percent = percent_of(row, o->false_light);
+    o->coverage = f->coverage;
+    o->worst = f->together.pixels && c.has_edge ? f->together.worst : 0;
+    o->own_shadow = o->own_light = 0;
+    for (size_t i = 0; i < (size_t)t->width * t->height; i++) {
+        if (row->near[i] || o->mask[i] == t->mask[i] || o->mask[i] == 255 || t->mask[i] == 255)
+            continue;
+        if (!footprint_differs(&row->footprint, i, t->mask[i]))
+            *(o->mask[i] ? &o->own_light : &o->own_shadow) += 1;
+    }
+}
+
+/* ---- rows ------------------------------------------------------------------------------------------------------ */
+
+static void check_truth(hard_row *row)
+{
+    const truth *t = &row->truth;
+    const hard_case *c = row->about;
+    size_t count = (size_t)t->width * t->height, differ = 0, asked = 0, wrong = 0, first = 0;
+    promise(row, c->flags & NO_LIGHT ? t->lit == 0 : t->lit > 0, 0, "%s_has_%s_pixel", c->name,
+            c->flags & NO_LIGHT ? "no_lit" : "a_lit");
+    promise(row, c->flags & NO_SHADOW ? t->shadowed == 0 : t->shadowed > 0, 0, "%s_has_%s_pixel", c->name,
+            c->flags & NO_SHADOW ? "no_shadowed" : "a_shadowed");
+    for (size_t i = 0; i < count; i++) {
+        if (row->near[i])
+            continue;
+        differ += row->footprint.mask[i] != t->mask[i];
+        if (!c->by_hand || t->mask[i] == 255)
+            continue;
+        double point[3];
+        for (int k = 0; k < 3; k++)
+            point[k] = (row->footprint.points[i][k] - row->origin[k]) / row->unit;
+        int expected = c->by_hand(point);
+        if (expected == BY_HAND_UNSAID)
+            continue;
+        asked++;
+        if (expected != t->mask[i] && !wrong++)
+            first = i;
+    }
+    if (!promise(row, differ == 0, 0, "%s_is_seen_alike_by_a_second_ray_caster", c->name))
+        say("%zu pixels differ", differ);
+    if (c->by_hand && !promise(row, wrong == 0 && asked > 0, 0, "%s_has_the_truth_worked_out_by_hand", c->name))
+        say("%zu of %zu pixels differ, the first at %zu, %zu: expected %d, got %d", wrong, asked, first % t->width,
+            first / t->width, t->mask[first] ? 0 : 254, t->mask[first]);
+}
+
+int row_begin(hard_row *row, void (*build)(builder *b), int with_near)
+{
+    builder b;
+    problem why;
+    build_begin(&b);
+    build(&b);
+    int failed = build_finish(&b, &row->packed);
+    row->unit = b.unit;
+    memcpy(row->origin, b.origin, sizeof row->origin);
+    gn_status status = b.status;
+    build_free(&b);
+    if (!promise(row, !failed, 0, "%s_is_within_the_ranges", row->about->name)) {
+        say("status %d", status);
+        return -1;
+    }
+    const gn_settings *s = &row->packed.settings;
+    footprint_make(&row->footprint, &row->packed);
+    failed = truth_make(&row->truth, &row->packed, s->width, s->height, 1, with_near, &why);
+    if (!promise(row, !failed, 0, "%s_has_a_truth", row->about->name)) {
+        say("%s", why.text);
+        return -1;
+    }
+    size_t count = (size_t)s->width * s->height;
+    row->near = memory_take(count, 1);
+    for (size_t i = 0; i < count; i++)
+        row->near[i] = row->truth.ties[i] || (row->truth.near && row->truth.near[i]) ? 255 : 0;
+    if (row->about->build == build)
+        check_truth(row);
+    return 0;
+}
+
+void row_forget(outcome *o)
+{
+    free(o->mask);
+    memset(o, 0, sizeof *o);
+}
+
+void row_remark(hard_row *row, const char *format, ...)
+{
+    size_t used = strlen(row->remark);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(row->remark + used, sizeof row->remark - used, format, arguments);
+    va_end(arguments);
+}
+
+void row_measure(hard_row *row, int method, const gn_settings *settings)
+{
+    outcome *o = &row->outcomes[method];
+    problem why;
+    row_forget(o);
+    if (method_render(&row->packed, settings, &o->mask, 0, &why)) {
+        strncpy(o->refusal, why.text, sizeof o->refusal - 1);
+        return;
+    }
+    o->ran = 1;
+    measure(row, o);
+}
+
+void row_end(hard_row *row)
+{
+    for (int i = 0; i < METHOD_COUNT; i++) {
+        free(row->outcomes[i].mask);
+        row->outcomes[i].mask = 0;
+    }
+    free(row->near);
+    row->near = 0;
+    footprint_free(&row->footprint);
+    truth_free(&row->truth);
+    packed_free(&row->packed);
+}
