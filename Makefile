@@ -244,10 +244,14 @@ sizes: $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) $(BUILD)/cortex-m4-16/footpri
 
 CORE_TESTS := $(wildcard tests/core/*.c)
 HOST_TESTS := $(wildcard tests/host/*.c)
+# One program of many files. Slower builds run a shorter list of its cases.
+HARD := $(wildcard tests/hard/*.c)
+HARD_BUILDS := host-16 host-32 checked-16 sanitized-16
 # tests/report: tables for docs/, made by hand with the peers.
 SHELL_TESTS := $(filter-out tests/report/%,$(wildcard tests/*/*.sh))
 TEST_BUILDS := $(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),$(b)-$(d)))
-TEST_PROGRAMS := $(foreach b,$(TEST_BUILDS),$(patsubst %.c,$(BUILD)/$(b)/%,$(CORE_TESTS) $(HOST_TESTS)))
+TEST_PROGRAMS := $(foreach b,$(TEST_BUILDS),$(patsubst %.c,$(BUILD)/$(b)/%,$(CORE_TESTS) $(HOST_TESTS))) \
+	$(HARD_BUILDS:%=$(BUILD)/%/tests/hard/hard)
 
 # $(call test_rules,BUILD-DEPTH,BUILD): tests of the simulator link all of it but its main.
 define test_rules
@@ -257,6 +261,11 @@ $(BUILD)/$(1)/tests/core/%: $(BUILD)/objects/$(1)/tests/core/%.o $(call objects,
 	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ -lm -o $$@
 $(BUILD)/$(1)/tests/host/%: $(BUILD)/objects/$(1)/tests/host/%.o \
 		$(call objects,$(1),$(filter-out host/main.c,$(HOST)) $(CORE)) $(addprefix $(BUILD)/objects/$(1)/,$($(2)_OBJECTS))
+	$$(call say,link)
+	@mkdir -p $$(@D)
+	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ $($(2)_LIBRARIES) -lm -o $$@
+$(BUILD)/$(1)/tests/hard/hard: $(call objects,$(1),$(HARD) $(filter-out host/main.c,$(HOST)) $(CORE)) \
+		$(addprefix $(BUILD)/objects/$(1)/,$($(2)_OBJECTS))
 	$$(call say,link)
 	@mkdir -p $$(@D)
 	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ $($(2)_LIBRARIES) -lm -o $$@

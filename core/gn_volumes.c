@@ -12,7 +12,9 @@
  * behind the visible point of every pixel that it covers, or is the point's own triangle: no comparison. A lid is at
  * infinity: no comparison. It is drawn as a fan from the light's axis over the silhouette edges.
  * Sides compare nearness (gn_nearness.h), held to the range of their corners: of the point, on its triangle's plane,
- * and of the side. Coverage is that of the snapped corners, the same for both faces at an edge: counts are closed.
+ * and of the side. A side over an edge of the point's own triangle is always behind: it lies on the other side of the
+ * triangle's plane from light and camera. (Without that rule a pixel that snapping has moved past the edge could find
+ * the two planes in the wrong order.) Coverage is that of the snapped corners, the same for both faces at an edge: counts are closed.
  *
  * Memory: per pixel of a region and worker 10 bytes beside visibility's 8. Counts are modulo 2^16, so 65,536 volumes
  * over one point would be none. Cost: a side is set up once for every region that its rows touch. */
@@ -25,8 +27,10 @@
 typedef struct target {
     uint16_t *count;
     const int64_t *point;
+    const uint32_t *triangle;
     int32_t stride, row0, column0;
     uint32_t weight; /* what a covered pixel gains, modulo 2^16 */
+    uint32_t own[2]; /* the triangles on a side's edge: it is behind their points */
     gn_nearness plane;
     gn_reach reach; /* in units of the plane's value */
     GN_TALLY(gn_tally *tally;)
@@ -54,12 +58,14 @@ GN_INLINE void span_compared(const void *state, int32_t row, int32_t left, int32
     int32_t at = (row - t->row0) * t->stride - t->column0;
     uint16_t *count = t->count + at;
     const int64_t *point = t->point + at;
+    const uint32_t *triangle = t->triangle + at;
     int64_t dx = t->plane.dx, value = t->plane.base + row * t->plane.dy + left * dx, low = t->reach.low,
             high = t->reach.high;
-    uint32_t weight = t->weight;
+    uint32_t weight = t->weight, own0 = t->own[0], own1 = t->own[1];
     GN_TALLY(t->tally->centres += (uint32_t)(right - left);)
     for (int32_t x = left; x < right; x++, value += dx)
-        count[x] = (uint16_t)(count[x] + (clamp(value, low, high) < gn_floor_shift_64(point[x], shift) ? weight : 0));
+        if (clamp(value, low, high) < gn_floor_shift_64(point[x], shift) || triangle[x] == own0 || triangle[x] == own1)
+            count[x] = (uint16_t)(count[x] + weight);
 }
 
 GN_INLINE void span_plain(const void *state, int32_t row, int32_t left, int32_t right)
@@ -310,7 +316,7 @@ typedef struct region {
 } region;
 
 /* A silhouette's edge in the world. */
-static int32_t find_edge(const gn_context *context, const gn_silhouette *s, int32_t world[2][3])
+static int32_t find_edge(const gn_context *context, const gn_silhouette *s, int32_t world[2][3], uint32_t own[2])
 {
     const gn_volumes *volumes = context->volumes;
     uint32_t number = s->edge >> volumes->edge_bits, ends[2];
@@ -320,6 +326,10 @@ static int32_t find_edge(const gn_context *context, const gn_silhouette *s, int3
         gn_edge_winding(object->mesh, edge, volumes->facings, context->objects[number].first_triangle, ends);
     (void)gn_world_position(object, ends[0], world[0]);
     (void)gn_world_position(object, ends[1], world[1]);
+    own[0] = number << context->triangle_bits | edge->half[0] / 3;
+    own[1] = own[0];
+    if (edge->half[1] != GN_NO_HALF_EDGE)
+        own[1] = number << context->triangle_bits | (edge->half[1] & ~GN_SAME_DIRECTION) / 3;
     return winding;
 }
 
@@ -332,7 +342,7 @@ static void draw_silhouette(region *r, const gn_silhouette *s)
     int64_t n[3];
     corner ends[2];
     outline side, lid;
-    int32_t winding = find_edge(r->context, s, world);
+    int32_t winding = find_edge(r->context, s, world, r->t.own);
     gn_reach reach = gn_empty_reach();
     for (int i = 0; i < 2; i++) {
         set_corner(&ends[i], view, light, world[i]);
@@ -458,8 +468,9 @@ static void cut_at_near(cut *out, const gn_view *view, const gn_light *light, in
     }
 }
 
-static void draw_cut_volume(region *r, const gn_object *object, uint32_t triangle)
+static void draw_cut_volume(region *r, uint32_t number, uint32_t triangle)
 {
+    const gn_object *object = &r->context->scene->objects[number];
     const gn_light *light = &r->context->light;
     const gn_view *view = &r->volumes->view;
     const gn_eye *eye = &r->volumes->eye;
@@ -473,6 +484,7 @@ static void draw_cut_volume(region *r, const gn_object *object, uint32_t triangl
     for (int i = 0; i < 3; i++)
         (void)gn_world_position(object, index[i], world[i]);
     int32_t winding = gn_light_side(light, world);
+    r->t.own[0] = r->t.own[1] = number << r->context->triangle_bits | triangle;
     cut_at_near(&c, view, light, world);
     cap.count = 0;
     for (int32_t i = 0; i < c.count; i++)
@@ -503,7 +515,7 @@ static void draw_cut_volumes(region *r)
     for (uint32_t o = 0; r->volumes->crossing && o < scene->object_count; o++)
         for (uint32_t t = 0; t < scene->objects[o].mesh->triangle_count; t++)
             if (gn_facing_of(r->volumes->facings, r->context->objects[o].first_triangle + t) == GN_CROSSES_NEAR)
-                draw_cut_volume(r, &scene->objects[o], t);
+                draw_cut_volume(r, o, t);
 }
 
 /* ---- the frustum of a spot light ------------------------------------------------------------------------------- */
@@ -553,6 +565,7 @@ static void draw_frustum(region *r)
     const gn_eye *eye = &r->volumes->eye;
     gn_reach everywhere = {-GN_NEAREST, GN_NEAREST};
     int32_t apart[3];
+    r->t.own[0] = r->t.own[1] = GN_NO_TRIANGLE;
     for (int i = 0; i < 3; i++)
         apart[i] = light->position[i] - eye->position[i];
     for (int which = 0; which < 6; which++) {
@@ -704,11 +717,12 @@ static void find_rows(gn_context *context)
     for (uint32_t i = 0; i < volumes->silhouette_count; i++) {
         gn_silhouette *s = &volumes->silhouettes[i];
         int32_t world[2][3];
+        uint32_t own[2];
         corner ends[2];
         outline o;
         s->first_row = 0xffff;
         s->last_row = 0;
-        int32_t winding = find_edge(context, s, world);
+        int32_t winding = find_edge(context, s, world, own);
         for (int k = 0; k < 2; k++)
             set_corner(&ends[k], &volumes->view, light, world[k]);
         make_side(&o, &volumes->view, light, &ends[0], &ends[1]);
@@ -777,6 +791,7 @@ static void count_volumes(gn_context *context, uint32_t worker, const gn_window 
     r.axis = place_direction(&volumes->view, context->light.forward);
     r.t.count = w->count;
     r.t.point = w->point;
+    r.t.triangle = context->workers[worker].triangle;
     r.t.stride = window->column1 - window->column0;
     r.t.row0 = window->row0;
     r.t.column0 = window->column0;

@@ -43,10 +43,10 @@ gn_settings method_settings(const packed_scene *packed, int method, unsigned fla
 }
 
 /* Copied out of the frame, which may have more rows. */
-static uint8_t *keep(const uint8_t *image, size_t bytes)
+static uint8_t *keep(const uint8_t *from, size_t bytes)
 {
     uint8_t *copy = memory_take(bytes, 1);
-    memcpy(copy, image, bytes);
+    memcpy(copy, from, bytes);
     return copy;
 }
 
@@ -182,7 +182,7 @@ void row_measure(hard_row *row, int method, const gn_settings *settings)
     problem why;
     row_forget(o);
     if (method_render(&row->packed, settings, &o->mask, 0, &why)) {
-        strncpy(o->refusal, why.text, sizeof o->refusal - 1);
+        snprintf(o->refusal, sizeof o->refusal, "%.150s", why.text);
         return;
     }
     o->ran = 1;
