@@ -22,7 +22,7 @@ say = $(if $(filter 0,$(V)),@echo "  $(1)  $@")
 CORE := $(wildcard core/*.c)
 # No inner loops: compiled for size where flash counts.
 SETUP_SOURCES := $(patsubst %,core/gn_%.c,bias bins camera_pass clip lambert matrix plan scaled shading transform \
-	trigonometry view)
+	trigonometry view volumes_spot)
 HOST := $(wildcard host/*.c)
 EMBEDDED_TARGETS :=
 HOSTED_TARGETS :=

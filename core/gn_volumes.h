@@ -2,8 +2,8 @@
 #ifndef GN_VOLUMES_H
 #define GN_VOLUMES_H
 
-#include "gn_nearness.h"
 #include "gn_silhouette.h"
+#include "gn_volume_count.h"
 
 /* The plane of a triangle in view, kept per worker: a direct-mapped cache like that of colours, as large. */
 typedef struct gn_seen_plane {
@@ -29,5 +29,21 @@ typedef struct gn_volumes {
     uint16_t outside;  /* with what a pixel's count begins */
     gn_volumes_worker *workers;
 } gn_volumes;
+
+/* A region at work. */
+typedef struct gn_volume_region {
+    const gn_context *context;
+    const gn_volumes *volumes;
+    const gn_window *window;
+    gn_place axis; /* of the light's forward, at infinity */
+    gn_volume_target target;
+} gn_volume_region;
+
+/* gn_volumes_spot.c: volumes of triangles that the near plane of a spot light cuts; the frustum; and how often the
+ * part of a lid over the edge from a to b (ways from the light) covers the one direction in which an orthographic
+ * camera looks. */
+void gn_count_cut_volumes(gn_volume_region *r);
+void gn_count_frustum(gn_volume_region *r);
+uint32_t gn_lid_along_view(const gn_context *context, const int32_t a[3], const int32_t b[3], int32_t winding);
 
 #endif

@@ -102,6 +102,10 @@ static void say_what_was_read(const job *j)
             packed_triangle_count(p), packed_vertex_count(p), p->scale);
     if (p->largest_rounding >= 0)
         fprintf(stderr, ", largest rounding of a vertex %.3g world units", p->largest_rounding);
+    if (j->settings.shadow == GN_SHADOW_VOLUMES) {
+        fprintf(stderr, "\nshadow volumes, %" PRIu32 " edges; %zu bytes\n", plan->edges, plan->bytes);
+        return;
+    }
     fprintf(stderr, "\nvirtual surface %s, layers %s, cull %s; %zu bytes, of them %zu for the map\n",
             render_surface_name(j->settings.surface), render_layers_name(plan->layers), render_cull_name(plan->cull),
             plan->bytes, plan->map_bytes);
@@ -140,6 +144,12 @@ static void write_statistics(json *j, const frame *f)
     json_integer(j, "camera_fragments", (int64_t)s.camera_fragments);
     json_integer(j, "pixels_shaded", (int64_t)s.pixels_shaded);
     json_integer(j, "pixels_tested", (int64_t)s.pixels_tested);
+    if (f->settings.shadow == GN_SHADOW_VOLUMES) {
+        json_integer(j, "silhouette_edges", (int64_t)s.silhouette_edges);
+        json_integer(j, "volume_faces", (int64_t)s.volume_faces);
+        json_integer(j, "volume_fragments", (int64_t)s.volume_fragments);
+        json_number(j, "overdraw", s.camera_fragments ? (double)s.volume_fragments / (double)s.camera_fragments : 0);
+    }
     json_close(j);
 }
 
@@ -151,6 +161,7 @@ static void write_plan(json *j, const gn_settings *s, const gn_plan *plan)
     json_integer(j, "map_width", s->map_width);
     json_integer(j, "map_height", s->map_height);
     json_integer(j, "depth_bits", GN_DEPTH_BITS);
+    json_string(j, "shadow", render_shadow_name(s));
     json_string(j, "virtual_surface", render_surface_name(s->surface));
     json_string(j, "layers", render_layers_name(plan->layers));
     json_string(j, "cull", render_cull_name(plan->cull));
@@ -247,6 +258,9 @@ static int render(job *j)
         return -1;
     if (j->values[VERBOSE])
         say_what_was_read(j);
+    if (j->settings.shadow == GN_SHADOW_VOLUMES &&
+        (j->values[OUTPUT_DEPTH] || j->values[OUTPUT_SECOND_DEPTH] || j->values[OUTPUT_MAP]))
+        return problem_of_usage(&j->why, "shadow volumes have no map to write; expected a method with a shadow map");
     if (j->values[OUTPUT_SECOND_DEPTH] && j->frame.layer_count < 2)
         return problem_of_usage(&j->why,
                                 "--second-depth, but the method keeps one layer; expected a method with two layers");

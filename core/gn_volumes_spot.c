@@ -1,0 +1,211 @@
+/* What a spot light adds to shadow volumes: triangles that its near plane cuts, its frustum, and its lid where an
+ * orthographic camera looks at infinity. */
+#include "gn_volumes.h"
+
+/* ---- triangles that the near plane of a spot light cuts -------------------------------------------------------- */
+
+/* The part beyond the plane, three or four corners. */
+typedef struct cut {
+    gn_corner corners[4];
+    int32_t count;
+} cut;
+
+static int64_t beyond_near(const gn_light *light, const int32_t world[3])
+{
+    int64_t w = 0;
+    for (int i = 0; i < 3; i++)
+        w += gn_multiply(world[i] - light->position[i], light->forward[i]);
+    return w - gn_multiply(light->near_depth, 1 << 30);
+}
+
+static int32_t bits_of(int64_t v)
+{
+    return v ? 64 - (int32_t)gn_leading_zeros_64((uint64_t)(v < 0 ? ~v : v) | 1) : 0;
+}
+
+/* Where the edge crosses the plane: the same for both triangles on it. */
+static void set_cut(gn_corner *c, const gn_view *view, const gn_corner *a, const gn_corner *b, int64_t da, int64_t db)
+{
+    c->place = gn_plane_crossing(view, &a->place, &b->place, da, db, GN_CLIP_PLANES);
+    int64_t to_a = da < 0 ? -da : da, to_b = db < 0 ? -db : db, sum[3];
+    while ((to_a | to_b) >> 31) {
+        to_a >>= 1;
+        to_b >>= 1;
+    }
+    int32_t bits = 0;
+    for (int i = 0; i < 3; i++) {
+        sum[i] = gn_multiply(a->away[i], (int32_t)to_b) + gn_multiply(b->away[i], (int32_t)to_a);
+        bits = bits_of(sum[i]) > bits ? bits_of(sum[i]) : bits;
+    }
+    for (int i = 0; i < 3; i++)
+        c->away[i] = (int32_t)(bits > 30 ? gn_floor_shift_64(sum[i], (unsigned)(bits - 30))
+                                         : sum[i] * ((int64_t)1 << (30 - bits)));
+    c->direction = gn_place_direction(view, c->away);
+}
+
+static void cut_at_near(cut *out, const gn_view *view, const gn_light *light, int32_t world[3][3])
+{
+    gn_corner corners[3];
+    int64_t d[3];
+    out->count = 0;
+    for (int i = 0; i < 3; i++) {
+        gn_set_corner(&corners[i], view, light, world[i]);
+        d[i] = beyond_near(light, world[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+        int next = i < 2 ? i + 1 : 0;
+        if (d[i] >= 0)
+            out->corners[out->count++] = corners[i];
+        if ((d[i] > 0 && d[next] < 0) || (d[i] < 0 && d[next] > 0))
+            set_cut(&out->corners[out->count++], view, &corners[i], &corners[next], d[i], d[next]);
+    }
+}
+
+static void draw_cut_volume(gn_volume_region *r, uint32_t number, uint32_t triangle)
+{
+    const gn_object *object = &r->context->scene->objects[number];
+    const gn_light *light = &r->context->light;
+    const gn_view *view = &r->volumes->view;
+    const gn_eye *eye = &r->volumes->eye;
+    gn_reach reach = gn_empty_reach();
+    int32_t world[3][3];
+    uint32_t index[3];
+    cut c;
+    gn_face cap;
+    gn_outline o;
+    gn_triangle_indices(object->mesh, triangle, index);
+    for (int i = 0; i < 3; i++)
+        (void)gn_world_position(object, index[i], world[i]);
+    int32_t winding = gn_light_side(light, world);
+    r->target.own[0] = r->target.own[1] = number << r->context->triangle_bits | triangle;
+    cut_at_near(&c, view, light, world);
+    cap.count = 0;
+    for (int32_t i = 0; i < c.count; i++)
+        gn_add_corner(&cap, &c.corners[i].place, 0);
+    gn_project_face(view, &cap, &o);
+    gn_count_outline(&r->target, &o, winding, r->window, GN_BEHIND);
+    for (int i = 0; i < 3; i++)
+        gn_reach_point(&reach, eye, world[i]);
+    for (int32_t i = 0; i < c.count; i++)
+        gn_reach_ray(&reach, eye, c.corners[i].away);
+    for (int32_t i = 0; i < c.count; i++) {
+        const gn_corner *a = &c.corners[i], *b = &c.corners[i + 1 < c.count ? i + 1 : 0];
+        int64_t n[3];
+        gn_cross(n, a->away, b->away);
+        gn_make_side(&o, view, light, a, b);
+        gn_set_side_plane(&r->target, eye, n, light->position, &reach);
+        gn_count_outline(&r->target, &o, winding, r->window, GN_COMPARED);
+        if (view->affine)
+            continue;
+        gn_make_lid(&o, view, &r->axis, a, b);
+        gn_count_outline(&r->target, &o, winding, r->window, GN_BEHIND);
+    }
+}
+
+void gn_count_cut_volumes(gn_volume_region *r)
+{
+    const gn_scene *scene = r->context->scene;
+    for (uint32_t o = 0; r->volumes->crossing && o < scene->object_count; o++)
+        for (uint32_t t = 0; t < scene->objects[o].mesh->triangle_count; t++)
+            if (gn_facing_of(r->volumes->facings, r->context->objects[o].first_triangle + t) == GN_CROSSES_NEAR)
+                draw_cut_volume(r, o, t);
+}
+
+/* ---- the frustum of a spot light ------------------------------------------------------------------------------- */
+
+/* Its corners: bit 0 right, bit 1 above, bit 2 far. */
+static gn_place frustum_corner(const gn_view *view, const gn_light *light, int which)
+{
+    gn_place p;
+    gn_wide tangent = gn_widen(light->tan_half, -24);
+    gn_wide depth = gn_widen(which & 4 ? light->far_depth : light->near_depth, -30);
+    for (int i = 0; i < 3; i++) {
+        const gn_row *row = &view->row[i];
+        const int64_t m[3] = {row->m[0], row->m[1], row->m[2]};
+        gn_wide right = gn_wide_multiply(gn_wide_dot(m, light->right), tangent);
+        gn_wide up = gn_wide_multiply(gn_wide_dot(m, light->up), tangent);
+        gn_wide sum = gn_wide_add(gn_wide_dot(m, light->forward), which & 1 ? right : gn_wide_negate(right));
+        sum = gn_wide_multiply(gn_wide_add(sum, which & 2 ? up : gn_wide_negate(up)), depth);
+        sum = gn_wide_add(sum, gn_widen(row->offset, 0));
+        sum = gn_wide_add(sum, gn_wide_dot(m, light->position));
+        p.c[i] = gn_wide_round(sum, row->shift);
+    }
+    return p;
+}
+
+/* Its planes, normals outward: near, far, right, left, above, below; and the distance of each from the light, times
+ * the normal's length. */
+static int64_t frustum_plane(int64_t n[3], const gn_light *light, int which)
+{
+    const gn_q2_30 *axis = which < 4 ? light->right : light->up;
+    for (int i = 0; i < 3; i++) {
+        n[i] = which == 0 ? -(int64_t)light->forward[i] : light->forward[i];
+        if (which >= 2) {
+            int64_t across = axis[i] * (int64_t)(1 << 24);
+            n[i] = (which & 1 ? -across : across) - gn_multiply(light->forward[i], (int32_t)light->tan_half);
+        }
+    }
+    return which == 0   ? -gn_multiply(light->near_depth, 1 << 30)
+           : which == 1 ? gn_multiply(light->far_depth, 1 << 30)
+                        : 0;
+}
+
+void gn_count_frustum(gn_volume_region *r)
+{
+    static const uint8_t corners[6][4] = {{0, 1, 3, 2}, {6, 7, 5, 4}, {1, 5, 7, 3},
+                                          {4, 0, 2, 6}, {2, 3, 7, 6}, {1, 0, 4, 5}};
+    const gn_light *light = &r->context->light;
+    const gn_eye *eye = &r->volumes->eye;
+    gn_reach everywhere = {-GN_NEAREST, GN_NEAREST};
+    int32_t apart[3];
+    r->target.own[0] = r->target.own[1] = GN_NO_TRIANGLE;
+    for (int i = 0; i < 3; i++)
+        apart[i] = light->position[i] - eye->position[i];
+    for (int which = 0; which < 6; which++) {
+        gn_face f;
+        gn_outline o;
+        int64_t n[3], offset = frustum_plane(n, light, which);
+        f.count = 0;
+        for (int i = 0; i < 4; i++) {
+            gn_place p = frustum_corner(&r->volumes->view, light, corners[which][i]);
+            gn_add_corner(&f, &p, 0);
+        }
+        gn_project_face(&r->volumes->view, &f, &o);
+        gn_make_nearness(&r->target.plane, eye, n, gn_wide_add(gn_wide_dot(n, apart), gn_widen(offset, 0)));
+        r->target.reach = everywhere;
+        gn_count_outline(&r->target, &o, -1, r->window, GN_COMPARED);
+    }
+}
+
+/* ---- the lid, seen by an orthographic camera ------------------------------------------------------------------ */
+
+/* p before q, so that a tie of three directions is settled the same way from both sides. */
+static int precedes(const int32_t p[3], const int32_t q[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (p[i] != q[i])
+            return p[i] < q[i];
+    return 0;
+}
+
+/* The way from p to q about d. */
+static int turn(const int32_t p[3], const int32_t q[3], const int32_t d[3])
+{
+    int64_t n[3];
+    gn_cross(n, p, q);
+    int sign = gn_dot_sign(n, d);
+    return sign ? sign : precedes(p, q) ? 1 : -1;
+}
+
+/* How often a part of the lid covers the one direction in which an orthographic camera looks. */
+uint32_t gn_lid_along_view(const gn_context *context, const int32_t a[3], const int32_t b[3], int32_t winding)
+{
+    const int32_t *forward = context->camera.forward, *axis = context->light.forward;
+    int first = turn(b, a, forward), second = turn(a, axis, forward), third = turn(axis, b, forward);
+    if (first != second || second != third)
+        return 0;
+    int64_t along = 0; /* the cone, not its mirror image */
+    for (int i = 0; i < 3; i++)
+        along += gn_multiply(axis[i], forward[i]);
+    return along > 0 ? (uint32_t)(first > 0 ? -winding : winding) : 0;
+}
