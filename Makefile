@@ -135,11 +135,12 @@ TARGET_DEPTHS := $(foreach d,$(DEPTHS),$(addsuffix -$(d),$(TARGETS)))
 MINIMAL_DEPTHS := $(filter-out host-%,$(TARGET_DEPTHS))
 EMBEDDED_DEPTHS := $(foreach d,$(DEPTHS),$(addsuffix -$(d),$(EMBEDDED_TARGETS)))
 
-# Scenes are packed once, on this machine, and compiled for all targets. A header that comes out equal keeps its date.
+# Scenes are packed once, on this machine, with edges for shadow volumes, and compiled for all targets. A header that
+# comes out equal keeps its date.
 $(BUILD)/golden/%.h: $(BUILD)/gnomon
 	$(call say,pack)
 	@mkdir -p $(@D)/new
-	$(quiet)$< procedural $* -o $(@D) && $< pack $(@D)/$*.scene -o $(@D)/new/$(@F) >/dev/null
+	$(quiet)$< procedural $* -o $(@D) && $< pack $(@D)/$*.scene --edges -o $(@D)/new/$(@F) >/dev/null
 	@cmp -s $(@D)/new/$(@F) $@ || cp $(@D)/new/$(@F) $@
 
 $(BUILD)/golden/footprint.h: $(BUILD)/gnomon port/footprint/scene.awk
@@ -162,7 +163,7 @@ $(BUILD)/$(2)/%.elf: $(BUILD)/objects/$(2)/port/%.o $(call objects,$(2),$(PROGRA
 	$$(call say,link)
 	@mkdir -p $$(@D)
 	$(quiet)$($(1)_TOOL)gcc $($(1)_FLAGS) $($(1)_LINK) $$^ -lgcc -o $$@
-$(BUILD)/objects/$(2)/port/firmware.o: $(GOLDEN_HEADERS)
+$(BUILD)/objects/$(2)/port/firmware.o $(BUILD)/objects/$(2)/port/bench/bench.o: $(GOLDEN_HEADERS)
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN) -kernel)
 $(BUILD)/$(2)/minimal_main.txt: $(BUILD)/$(2)/minimal_main.elf

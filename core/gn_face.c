@@ -84,8 +84,12 @@ void gn_project_face(const gn_view *view, const gn_face *f, gn_outline *out)
     int from = 0;
     out->count = 0;
     clipped[0] = *f;
+    int infinite = 0;
+    for (int32_t i = 0; i < f->count; i++)
+        infinite |= f->infinite[i];
     for (int plane = 0; plane < GN_CLIP_PLANES && clipped[from].count >= 3; plane++) {
-        if (plane == 1 || (plane == 0 && view->affine))
+        /* the far plane; and what an orthographic camera compares need not be cut at the near plane */
+        if (plane == (view->affine ? 0 : 1) || (plane == 1 && infinite))
             continue;
         clip_face(view, &clipped[from], &clipped[from ^ 1], plane);
         from ^= 1;

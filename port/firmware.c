@@ -1,7 +1,8 @@
 /* The golden firmware: renders every golden scene by several methods and prints one hash a stage, so that compilers,
  * word sizes and byte orders can be compared. The scenes are packed once, on the build host, and lie in flash.
  *
- *     hash SCENE METHOD STAGE HASH          stages: layers, map, mask, colour; axes: cameras and lights set up here
+ *     hash SCENE METHOD STAGE HASH          stages: layers, map, mask, colour; shadow volumes: mask, colour; axes:
+ *                                           cameras and lights set up here
  *     cost SCENE METHOD light N camera N    instructions, where the port counts them
  *     memory plan N stack N                 bytes: of the largest context, and of stack at its deepest
  *
@@ -34,6 +35,10 @@ static const golden_scene scenes[] = {
     {"pins", &pins_scene, &pins_camera, &pins_light},         {"fence", &fence_scene, &fence_camera, &fence_light},
 };
 
+/* A scene as it was packed; or MOVED: seen by an orthographic camera, its last object turned and mirrored by a model
+ * matrix, and a spot light's near plane pushed into it. */
+typedef enum staging { AS_PACKED, MOVED } staging;
+
 typedef struct method {
     const char *name;
     gn_surface surface;
@@ -41,23 +46,55 @@ typedef struct method {
     gn_layers layers;
     gn_format format;
     gn_bias bias;
+    gn_shadow shadow;
+    staging staging;
 } method;
 
 /* Biases: two texels, a fiftieth of the light's depth range. */
 enum { TWO_TEXELS = 2 << 16, FIFTIETH = 0xffffffffu / 50 };
 
 static const method methods[] = {
-    {"constant", GN_CONSTANT, GN_CULL_NONE, GN_LAYERS_FIRST, GN_RGB888, {GN_BIAS_RANGE, FIFTIETH}},
-    {"midpoint", GN_MIDPOINT, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB565, {GN_BIAS_TEXELS, 0}},
-    {"dual", GN_DUAL, GN_CULL_BACK, GN_LAYERS_TWO, GN_RGB888, {GN_BIAS_TEXELS, TWO_TEXELS}},
-    {"second-front", GN_SECOND, GN_CULL_FRONT, GN_LAYERS_FIRST, GN_RGB888, {GN_BIAS_TEXELS, 0}},
-    {"second-two", GN_SECOND, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB565, {GN_BIAS_TEXELS, 0}},
-    {"mixed", GN_MIXED, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB888, {GN_BIAS_TEXELS, TWO_TEXELS}},
+    {"constant",
+     GN_CONSTANT,
+     GN_CULL_NONE,
+     GN_LAYERS_FIRST,
+     GN_RGB888,
+     {GN_BIAS_RANGE, FIFTIETH},
+     GN_SHADOW_MAP,
+     AS_PACKED},
+    {"midpoint", GN_MIDPOINT, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB565, {GN_BIAS_TEXELS, 0}, GN_SHADOW_MAP, AS_PACKED},
+    {"dual", GN_DUAL, GN_CULL_BACK, GN_LAYERS_TWO, GN_RGB888, {GN_BIAS_TEXELS, TWO_TEXELS}, GN_SHADOW_MAP, AS_PACKED},
+    {"second-front",
+     GN_SECOND,
+     GN_CULL_FRONT,
+     GN_LAYERS_FIRST,
+     GN_RGB888,
+     {GN_BIAS_TEXELS, 0},
+     GN_SHADOW_MAP,
+     AS_PACKED},
+    {"second-two", GN_SECOND, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB565, {GN_BIAS_TEXELS, 0}, GN_SHADOW_MAP, AS_PACKED},
+    {"mixed", GN_MIXED, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB888, {GN_BIAS_TEXELS, TWO_TEXELS}, GN_SHADOW_MAP, AS_PACKED},
+    {"volumes",
+     GN_CONSTANT,
+     GN_CULL_AUTO,
+     GN_LAYERS_AUTO,
+     GN_RGB888,
+     {GN_BIAS_TEXELS, 0},
+     GN_SHADOW_VOLUMES,
+     AS_PACKED},
+    {"volumes-moved",
+     GN_CONSTANT,
+     GN_CULL_AUTO,
+     GN_LAYERS_AUTO,
+     GN_RGB565,
+     {GN_BIAS_TEXELS, 0},
+     GN_SHADOW_VOLUMES,
+     MOVED},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-static uint64_t memory[48 * 1024];
+static uint64_t memory[128 * 1024];
 
 /* Whole planes, put together from regions, so that hashes do not depend on how the work was cut. */
 static gn_depth layers[2][MAP * MAP];
@@ -65,7 +102,7 @@ static gn_depth map[MAP * MAP];
 static uint8_t mask[WIDTH * HEIGHT];
 static uint16_t colour[WIDTH * HEIGHT][3]; /* r, g, b; or one RGB565 value and two zeros */
 
-enum { LAYERS_STAGE, MAP_STAGE, MASK_STAGE, COLOUR_STAGE, STAGES };
+enum { LAYERS_STAGE, MAP_STAGE, MASK_STAGE, COLOUR_STAGE, STAGES }; /* those of volumes begin with the mask */
 static const char *const stage_names[STAGES] = {"layers", "map", "mask", "colour"};
 
 typedef struct result {
@@ -180,16 +217,14 @@ static gn_status light_pass(gn_context *context, const gn_plan *plan, const gn_l
     return status;
 }
 
-static void render(result *out, const golden_scene *golden, const method *by, int small_regions)
+static gn_settings settings_of(const method *by, int small_regions)
 {
     gn_settings settings = gn_default_settings(WIDTH, HEIGHT, MAP);
-    gn_plan plan;
-    gn_context *context;
-    gn_format format = by->format;
+    settings.shadow = (uint8_t)by->shadow;
     settings.surface = (uint8_t)by->surface;
     settings.cull = (uint8_t)by->cull;
     settings.layers = (uint8_t)by->layers;
-    settings.format = (uint8_t)format;
+    settings.format = (uint8_t)by->format;
     settings.bias = by->bias;
     settings.mask = 1;
     if (small_regions) {
@@ -197,8 +232,34 @@ static void render(result *out, const golden_scene *golden, const method *by, in
         settings.region_width = 48;
         settings.region_height = 16;
     }
+    return settings;
+}
+
+static gn_status render_map(result *out, gn_context *context, const gn_plan *plan, const golden_scene *golden)
+{
     for (uint32_t i = 0; i < MAP * MAP; i++)
         layers[0][i] = layers[1][i] = map[i] = 0;
+    gn_status status = light_pass(context, plan, golden->light, &out->light_instructions);
+    out->stages[LAYERS_STAGE] = hash_depths(hash_depths(stage_hash_init(), layers[0]), layers[1]);
+    out->stages[MAP_STAGE] = hash_depths(stage_hash_init(), map);
+    return status;
+}
+
+static gn_status find_volumes(result *out, gn_context *context, const golden_scene *golden)
+{
+    uint32_t start = port_instructions();
+    gn_status status = gn_volumes_light(context, golden->light);
+    out->light_instructions = port_instructions() - start;
+    return status;
+}
+
+static void render(result *out, const golden_scene *golden, const method *by, int small_regions)
+{
+    gn_settings settings = settings_of(by, small_regions);
+    gn_plan plan;
+    gn_context *context;
+    gn_format format = by->format;
+    int volumes = by->shadow == GN_SHADOW_VOLUMES;
 
     gn_status status = gn_make_plan(&plan, golden->scene, &settings);
     if (status != GN_OK)
@@ -208,19 +269,54 @@ static void render(result *out, const golden_scene *golden, const method *by, in
         fail("init", golden, by, status);
     out->plan_bytes = plan.bytes;
 
-    status = light_pass(context, &plan, golden->light, &out->light_instructions);
+    status = volumes ? find_volumes(out, context, golden) : render_map(out, context, &plan, golden);
     if (status != GN_OK)
         fail("light", golden, by, status);
-    out->stages[LAYERS_STAGE] = hash_depths(hash_depths(stage_hash_init(), layers[0]), layers[1]);
-    out->stages[MAP_STAGE] = hash_depths(stage_hash_init(), map);
 
     uint32_t start = port_instructions();
-    status = gn_camera_pass(context, golden->camera, keep_pixels, &format);
+    status = volumes ? gn_volumes_pass(context, golden->camera, keep_pixels, &format)
+                     : gn_camera_pass(context, golden->camera, keep_pixels, &format);
     if (status != GN_OK)
         fail("camera", golden, by, status);
     out->camera_instructions = port_instructions() - start;
     out->stages[MASK_STAGE] = hash_mask(stage_hash_init(), &out->light_and_shadow);
     out->stages[COLOUR_STAGE] = hash_colour(stage_hash_init(), format);
+}
+
+/* What a moved scene consists of. */
+enum { MOST_OBJECTS = 4 };
+static gn_object moved_objects[MOST_OBJECTS];
+static gn_model moved_model;
+static gn_scene moved_scene;
+static gn_camera moved_camera;
+static gn_light moved_light;
+
+static golden_scene move(const golden_scene *golden, const method *by)
+{
+    static const int32_t axis[3] = {1, 3, 2}, down[3] = {0, -1, 0};
+    golden_scene moved = {golden->name, &moved_scene, &moved_camera, &moved_light};
+    gn_light sun = {0};
+    moved_scene = *golden->scene;
+    moved_camera = *golden->camera;
+    moved_light = *golden->light;
+    if (moved_scene.object_count < 1 || moved_scene.object_count > MOST_OBJECTS)
+        fail("objects", golden, by, GN_TOO_MANY);
+    for (uint32_t i = 0; i < moved_scene.object_count; i++)
+        moved_objects[i] = golden->scene->objects[i];
+    moved_objects[moved_scene.object_count - 1].model = &moved_model;
+    moved_scene.objects = moved_objects;
+    gn_model_identity(&moved_model);
+    int status = gn_model_scale(&moved_model, -32768, 32768, 32768);
+    status |= gn_model_rotate(&moved_model, axis, GN_DEGREES(25));
+    /* the box of a light from above says how large the scene is */
+    status |= gn_directional_light(&sun, down, 0);
+    status |= gn_fit_light(&sun, golden->scene);
+    status |= gn_orthographic(&moved_camera, sun.box_width / 4, golden->camera->near_depth, golden->camera->far_depth);
+    if (status != GN_OK)
+        fail("move", golden, by, status);
+    if (moved_light.kind == GN_SPOT)
+        moved_light.near_depth += (moved_light.far_depth - moved_light.near_depth) / 4;
+    return moved;
 }
 
 static void write_hash_line(const char *scene, const char *by, const char *stage, stage_hash hash)
@@ -303,27 +399,32 @@ static stage_hash hash_axes(const golden_scene *golden)
     return hash;
 }
 
-int main(void)
+/* Returns the bytes of the larger plan. */
+static size_t render_method(const golden_scene *packed, const method *by)
 {
     static result whole, parts;
+    golden_scene golden = by->staging == MOVED ? move(packed, by) : *packed;
+    render(&whole, &golden, by, 0);
+    render(&parts, &golden, by, 1);
+    for (int stage = by->shadow == GN_SHADOW_VOLUMES ? MASK_STAGE : LAYERS_STAGE; stage < STAGES; stage++) {
+        write_hash_line(golden.name, by->name, stage_names[stage], whole.stages[stage]);
+        if (whole.stages[stage] != parts.stages[stage])
+            fail("small-regions-differ", &golden, by, -stage);
+    }
+    if (!whole.light_and_shadow)
+        fail("no-light-or-no-shadow", &golden, by, 0);
+    write_cost_line(golden.name, by->name, &whole);
+    return whole.plan_bytes > parts.plan_bytes ? whole.plan_bytes : parts.plan_bytes;
+}
+
+int main(void)
+{
     size_t most_bytes = 0;
     for (size_t s = 0; s < COUNT(scenes); s++) {
-        const golden_scene *golden = &scenes[s];
-        write_hash_line(golden->name, "set-up", "axes", hash_axes(golden));
+        write_hash_line(scenes[s].name, "set-up", "axes", hash_axes(&scenes[s]));
         for (size_t m = 0; m < COUNT(methods); m++) {
-            const method *by = &methods[m];
-            render(&whole, golden, by, 0);
-            render(&parts, golden, by, 1);
-            for (int stage = 0; stage < STAGES; stage++) {
-                write_hash_line(golden->name, by->name, stage_names[stage], whole.stages[stage]);
-                if (whole.stages[stage] != parts.stages[stage])
-                    fail("small-regions-differ", golden, by, -stage);
-            }
-            if (!whole.light_and_shadow)
-                fail("no-light-or-no-shadow", golden, by, 0);
-            write_cost_line(golden->name, by->name, &whole);
-            if (whole.plan_bytes > most_bytes)
-                most_bytes = whole.plan_bytes;
+            size_t bytes = render_method(&scenes[s], &methods[m]);
+            most_bytes = bytes > most_bytes ? bytes : most_bytes;
         }
     }
     port_write("memory plan ");

@@ -5,6 +5,9 @@
 #include "port.h"
 #include "print.h"
 
+#include "lshape.h"
+#include "pins.h"
+
 void mark_begin(void);
 void mark_end(void);
 
@@ -309,6 +312,268 @@ static void measure_pixels(const view *v)
     }
 }
 
+/* ---- shadow volumes -------------------------------------------------------------------------------------------- */
+
+static gn_settings volume_settings(uint16_t width, uint16_t height)
+{
+    gn_settings settings = gn_default_settings(width, height, 1);
+    settings.shadow = GN_SHADOW_VOLUMES;
+    return settings;
+}
+
+static void measure_volumes(const gn_scene *scene, const gn_settings *settings, const gn_camera *camera,
+                            const gn_light *light)
+{
+    gn_plan plan;
+    prepare(scene, settings, &plan);
+    require(gn_volumes_light(context, light) == GN_OK, "volumes' light");
+    mark_begin();
+    gn_status status = gn_volumes_pass(context, camera, discard, 0);
+    mark_end();
+    require(status == GN_OK, "volumes' pass");
+}
+
+/* Two triangles over corners 0 1 2 and 0 2 3. */
+static const gn_mesh_edge quad_edges[] = {
+    {{0, GN_NO_HALF_EDGE}}, {{1, GN_NO_HALF_EDGE}}, {{2, 3}}, {{4, GN_NO_HALF_EDGE}}, {{5, GN_NO_HALF_EDGE}}};
+
+static gn_mesh quad_with_edges(const int32_t corners[4][3])
+{
+    const gn_mesh mesh = {(const int32_t(*)[3])corners, quad_indices, 4, 2, sizeof(uint16_t), 0, quad_edges, 5};
+    return mesh;
+}
+
+/* A whole frame of two golden scenes, by volumes and by a map. */
+static void measure_frame(const char *name, const gn_scene *scene, const gn_camera *camera, const gn_light *light)
+{
+    gn_settings settings = volume_settings(160, 120);
+    write_case(name, "-volumes-", 160);
+    measure_volumes(scene, &settings, camera, light);
+    gn_plan plan;
+    settings = gn_default_settings(160, 120, 128);
+    prepare(scene, &settings, &plan);
+    require(gn_light_pass(context, light) == GN_OK, "light pass");
+    write_case(name, "-map-", 160);
+    mark_begin();
+    gn_status status = gn_camera_pass(context, camera, discard, 0);
+    mark_end();
+    require(status == GN_OK, "camera pass");
+}
+
+/* An orthographic camera along -z; light as given. 7000 world units are half the image's height. */
+enum { HALF_HEIGHT = 7000, HALF_WIDTH = HALF_HEIGHT / 3 * 4 + 10 };
+
+static void set_up_along_minus_z(gn_camera *camera, gn_light *light, const int32_t direction[3])
+{
+    static const int32_t eye[3] = {0, 0, 0}, ahead[3] = {0, 0, -20000}, up[3] = {0, 1, 0};
+    require(gn_look_at(camera, eye, ahead, up) == GN_OK, "look at");
+    require(gn_orthographic(camera, HALF_HEIGHT, 1000, 80000) == GN_OK, "camera");
+    require(gn_directional_light(light, direction, 0) == GN_OK, "sun");
+}
+
+/* A receiver, and quads that the camera sees edge-on, at the image's left end or in its middle: each casts two sides,
+ * which cover all that is right of it, before or behind the points of the receiver. */
+static void measure_side_fragments(int behind)
+{
+    static const int32_t sun[3] = {1, 0, -1};
+    static gn_model models[QUADS];
+    gn_mesh ground = quad_with_edges(receiver), fin;
+    gn_object objects[QUADS + 1] = {{&ground, 0, {200, 180, 160}}};
+    gn_settings settings = volume_settings(320, 240);
+    gn_camera camera;
+    gn_light light;
+    set_up_along_minus_z(&camera, &light, sun);
+    for (int wide = 0; wide < 2; wide++) {
+        int32_t x = wide ? -HALF_WIDTH : 0, z = behind ? -40000 : -4000;
+        const int32_t corners[4][3] = {{x, -9000, z}, {x, 9000, z}, {x, 9000, z + 2000}, {x, -9000, z + 2000}};
+        fin = quad_with_edges(corners);
+        for (int i = 0; i < QUADS; i++) {
+            gn_model_identity(&models[i]);
+            require(gn_model_translate(&models[i], 0, 0, 100 * i) == GN_OK, "model");
+            objects[i + 1].mesh = &fin;
+            objects[i + 1].model = &models[i];
+            objects[i + 1].colour = grey;
+        }
+        for (uint32_t count = QUADS / 2; count <= QUADS; count += QUADS / 2) {
+            gn_scene scene = scene_of(objects, count + 1);
+            write_case(wide ? "side-wide" : "side-narrow", behind ? "-behind-" : "-before-", count);
+            measure_volumes(&scene, &settings, &camera, &light);
+        }
+    }
+}
+
+/* Quads behind a receiver, over all or half of the columns, light along the view, so that sides have no area: by
+ * volumes, and by a map for what their triangles cost without caps. */
+static void measure_cap_fragments(void)
+{
+    static const int32_t sun[3] = {0, 0, -1};
+    static gn_model models[QUADS];
+    gn_mesh ground = quad_with_edges(receiver), cap;
+    gn_object objects[QUADS + 1] = {{&ground, 0, {200, 180, 160}}};
+    gn_camera camera;
+    gn_light light;
+    gn_plan plan;
+    set_up_along_minus_z(&camera, &light, sun);
+    for (int wide = 0; wide < 2; wide++) {
+        int32_t left = -HALF_WIDTH - 1000, right = wide ? HALF_WIDTH + 1000 : 0;
+        const int32_t corners[4][3] = {
+            {left, -9000, -40000}, {right, -9000, -40000}, {right, 9000, -40000}, {left, 9000, -40000}};
+        cap = quad_with_edges(corners);
+        for (int i = 0; i < QUADS; i++) {
+            gn_model_identity(&models[i]);
+            require(gn_model_translate(&models[i], 0, 0, 100 * i) == GN_OK, "model");
+            objects[i + 1].mesh = &cap;
+            objects[i + 1].model = &models[i];
+            objects[i + 1].colour = grey;
+        }
+        for (uint32_t count = QUADS / 2; count <= QUADS; count += QUADS / 2) {
+            gn_scene scene = scene_of(objects, count + 1);
+            gn_settings settings = volume_settings(320, 240);
+            write_case(wide ? "cap-wide" : "cap-narrow", "-volumes-", count);
+            measure_volumes(&scene, &settings, &camera, &light);
+            settings.shadow = GN_SHADOW_MAP;
+            prepare(&scene, &settings, &plan);
+            require(gn_fit_light(&light, &scene) == GN_OK, "box");
+            require(gn_light_pass(context, &light) == GN_OK, "light pass");
+            write_case(wide ? "cap-wide" : "cap-narrow", "-map-", count);
+            mark_begin();
+            gn_status status = gn_camera_pass(context, &camera, discard, 0);
+            mark_end();
+            require(status == GN_OK, "camera pass");
+        }
+    }
+}
+
+/* A flat grid of quads, each of two triangles. Its edges twice: as they are, and as if every triangle stood alone,
+ * whose sides cancel in pairs: the same shadow from many more silhouette edges. */
+enum {
+    GRID = 8,
+    GRID_TRIANGLES = 2 * GRID * GRID,
+    GRID_SHARED = 3 * GRID * GRID - 2 * GRID, /* edges of two triangles */
+    GRID_EDGES = 3 * GRID_TRIANGLES - GRID_SHARED
+};
+
+static int32_t grid_vertices[(GRID + 1) * (GRID + 1)][3];
+static uint16_t grid_indices[GRID_TRIANGLES][3];
+static gn_mesh_edge shared_edges[GRID_EDGES], lone_edges[3 * GRID_TRIANGLES];
+
+/* The half-edge between the same vertices as another one, run the other way. */
+static uint32_t opposite_half_edge(uint32_t half)
+{
+    const uint16_t *t = grid_indices[half / 3];
+    uint16_t from = t[half % 3], to = t[(half + 1) % 3];
+    for (uint32_t other = 0; other < 3 * GRID_TRIANGLES; other++) {
+        const uint16_t *o = grid_indices[other / 3];
+        if (o[other % 3] == to && o[(other + 1) % 3] == from)
+            return other;
+    }
+    return GN_NO_HALF_EDGE;
+}
+
+static void make_grid(int32_t x, int32_t z, int32_t cell)
+{
+    for (int32_t i = 0; i < (GRID + 1) * (GRID + 1); i++) {
+        grid_vertices[i][0] = x + (i % (GRID + 1) - GRID / 2) * cell;
+        grid_vertices[i][1] = (i / (GRID + 1) - GRID / 2) * cell;
+        grid_vertices[i][2] = z;
+    }
+    for (uint16_t i = 0; i < GRID * GRID; i++) {
+        uint16_t corner = (uint16_t)(i / GRID * (GRID + 1) + i % GRID);
+        const uint16_t quad[4] = {corner, (uint16_t)(corner + 1), (uint16_t)(corner + GRID + 2),
+                                  (uint16_t)(corner + GRID + 1)};
+        for (int k = 0; k < 6; k++)
+            grid_indices[2 * i + k / 3][k % 3] = quad[quad_indices[k / 3][k % 3]];
+    }
+    uint32_t count = 0;
+    for (uint32_t half = 0; half < 3 * GRID_TRIANGLES; half++) {
+        uint32_t other = opposite_half_edge(half);
+        lone_edges[half].half[0] = half;
+        lone_edges[half].half[1] = GN_NO_HALF_EDGE;
+        if (other > half) {
+            require(count < GRID_EDGES, "edges of the grid");
+            shared_edges[count].half[0] = half;
+            shared_edges[count++].half[1] = other;
+        }
+    }
+    require(count == GRID_EDGES, "edges of the grid");
+}
+
+static gn_mesh grid_mesh(int lone)
+{
+    const gn_mesh mesh = {(const int32_t(*)[3])grid_vertices,
+                          grid_indices,
+                          (GRID + 1) * (GRID + 1),
+                          GRID_TRIANGLES,
+                          sizeof(uint16_t),
+                          0,
+                          lone ? lone_edges : shared_edges,
+                          lone ? 3 * GRID_TRIANGLES : GRID_EDGES};
+    return mesh;
+}
+
+/* Edges of a few pixels, their sides within the screen, leaving it, or not on it at all. One region: a side is set up
+ * once for its rows and once to be drawn. */
+static void measure_silhouettes(const char *name, const int32_t direction[3], int spot, int32_t x)
+{
+    static const int32_t eye[3] = {0, 0, 0}, ahead[3] = {0, 0, -20000}, up[3] = {0, 1, 0};
+    gn_settings settings = volume_settings(160, 120);
+    gn_camera camera;
+    gn_light light;
+    settings.region_height = 120;
+    require(gn_look_at(&camera, eye, ahead, up) == GN_OK, "look at");
+    require(gn_perspective(&camera, GN_DEGREES(38), 1000, 40000) == GN_OK, "camera");
+    require(spot ? gn_spot_light(&light, direction, ahead, 0, GN_DEGREES(80), 2000, 80000) == GN_OK
+                 : gn_directional_light(&light, direction, 0) == GN_OK,
+            "light");
+    make_grid(x, -10000, 60);
+    for (int lone = 0; lone < 2; lone++) {
+        gn_mesh mesh = grid_mesh(lone);
+        const gn_object object = {&mesh, 0, {200, 180, 160}};
+        gn_scene scene = scene_of(&object, 1);
+        write_case(name, "-", lone ? 3 * GRID_TRIANGLES : 3 * GRID_TRIANGLES - 2 * GRID_SHARED);
+        measure_volumes(&scene, &settings, &camera, &light);
+    }
+}
+
+/* Facing, check of the edges, silhouettes: one grid, then two. */
+static void measure_volumes_light(const char *name, int spot)
+{
+    static const int32_t direction[3] = {1, 1, -400}, lamp[3] = {300, 200, 5000}, ahead[3] = {0, 0, -20000};
+    gn_mesh meshes[2] = {grid_mesh(0), grid_mesh(0)};
+    const gn_object objects[2] = {{&meshes[0], 0, {200, 180, 160}}, {&meshes[1], 0, {200, 180, 160}}};
+    gn_settings settings = volume_settings(160, 120);
+    gn_light light;
+    gn_plan plan;
+    require(spot ? gn_spot_light(&light, lamp, ahead, 0, GN_DEGREES(80), 2000, 80000) == GN_OK
+                 : gn_directional_light(&light, direction, 0) == GN_OK,
+            "light");
+    for (uint32_t count = 1; count <= 2; count++) {
+        gn_scene scene = scene_of(objects, count);
+        prepare(&scene, &settings, &plan);
+        write_case(name, "-", count * GRID_TRIANGLES);
+        mark_begin();
+        gn_status status = gn_volumes_light(context, &light);
+        mark_end();
+        require(status == GN_OK, "volumes' light");
+    }
+}
+
+static void measure_all_volumes(void)
+{
+    static const int32_t ahead[3] = {1, 1, -400}, across[3] = {4, 0, -1}, lamp[3] = {300, 200, 5000};
+    measure_frame("lshape", &lshape_scene, &lshape_camera, &lshape_light);
+    measure_frame("pins", &pins_scene, &pins_camera, &pins_light);
+    measure_side_fragments(0);
+    measure_side_fragments(1);
+    measure_cap_fragments();
+    measure_silhouettes("sides-off", across, 0, 100000);
+    measure_silhouettes("sides-within", ahead, 0, 0);
+    measure_silhouettes("sides-leaving", across, 0, 4300);
+    measure_silhouettes("sides-spot", lamp, 1, 0);
+    measure_volumes_light("facing-sun", 0);
+    measure_volumes_light("facing-spot", 1);
+}
+
 int main(void)
 {
     for (int pass = 1; pass >= 0; pass--) {
@@ -326,5 +591,6 @@ int main(void)
     measure_vertices();
     for (unsigned i = 0; i < sizeof views / sizeof *views; i++)
         measure_pixels(&views[i]);
+    measure_all_volumes();
     return 0;
 }

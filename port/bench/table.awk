@@ -36,6 +36,17 @@ function pixel(t, view) {
     return less(t, view "-320", view "-160") / (320 * 240 - 160 * 120)
 }
 
+# What four more quads with two sides each add over half the columns; of caps, by volumes less by a map.
+function side_fragment(t, how,    wide, narrow) {
+    wide = less(t, "side-wide-" how "-8", "side-wide-" how "-4")
+    narrow = less(t, "side-narrow-" how "-8", "side-narrow-" how "-4")
+    return (wide - narrow) / (4 * 2 * 160 * 240)
+}
+
+function quads_behind(t, by) {
+    return less(t, "cap-wide-" by "-8", "cap-wide-" by "-4") - less(t, "cap-narrow-" by "-8", "cap-narrow-" by "-4")
+}
+
 function figure(t, row) {
     if (row == 1) return texel(t, "one", "pass")
     if (row == 2) return texel(t, "one", "fail")
@@ -51,7 +62,21 @@ function figure(t, row) {
     if (row == 12) return pixel(t, "perspective-directional-rgb565")
     if (row == 13) return pixel(t, "perspective-spot-rgb888")
     if (row == 14) return pixel(t, "orthographic-directional-rgb888")
-    return pixel(t, "orthographic-spot-rgb888")
+    if (row == 15) return pixel(t, "orthographic-spot-rgb888")
+    if (row == 16) return counted[t, "lshape-volumes-160"] / (160 * 120)
+    if (row == 17) return counted[t, "lshape-map-160"] / (160 * 120)
+    if (row == 18) return counted[t, "pins-volumes-160"] / (160 * 120)
+    if (row == 19) return counted[t, "pins-map-160"] / (160 * 120)
+    if (row == 20) return side_fragment(t, "before")
+    if (row == 21) return side_fragment(t, "behind")
+    if (row == 22) return (quads_behind(t, "volumes") - quads_behind(t, "map")) / (4 * 160 * 240)
+    # 352 more silhouette edges from the same grid of 128 triangles
+    if (row == 23) return less(t, "sides-off-384", "sides-off-32") / 352
+    if (row == 24) return less(t, "sides-within-384", "sides-within-32") / 352
+    if (row == 25) return less(t, "sides-leaving-384", "sides-leaving-32") / 352
+    if (row == 26) return less(t, "sides-spot-384", "sides-spot-32") / 352
+    if (row == 27) return less(t, "facing-sun-256", "facing-sun-128") / 128
+    return less(t, "facing-spot-256", "facing-spot-128") / 128
 }
 
 function label(row, text, limit) {
@@ -76,8 +101,21 @@ END {
     label(12, "pixel, perspective, directional, RGB565", 80)
     label(13, "pixel, perspective, spot, RGB888")
     label(14, "pixel, orthographic, directional, RGB888")
-    rows = 15
     label(15, "pixel, orthographic, spot, RGB888")
+    label(16, "volumes: a pixel of lshape's whole camera pass")
+    label(17, "a map: the same")
+    label(18, "volumes: a pixel of pins' whole camera pass")
+    label(19, "a map: the same")
+    label(20, "volumes: side, a pixel compared, before it")
+    label(21, "volumes: side, a pixel compared, behind it")
+    label(22, "volumes: cap, a pixel")
+    label(23, "volumes: silhouette edge, its rows found")
+    label(24, "volumes: the same, and a side within the screen")
+    label(25, "volumes: the same, and a side that leaves it")
+    label(26, "volumes: the same with side and lid, spot")
+    label(27, "volumes: triangle, light pass, directional")
+    rows = 28
+    label(28, "volumes: triangle, light pass, spot")
 
     print "Instructions (not cycles), 16-bit depth"
     printf "%-50s", ""

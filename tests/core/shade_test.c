@@ -9,9 +9,12 @@
 #include <math.h>
 
 #define gn_shade_row tested_shade_row
+#define gn_falloff_row tested_falloff_row
 void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
+void gn_falloff_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
 #include "gn_shade.c" /* for row_of_w, start and next */
 #undef gn_shade_row
+#undef gn_falloff_row
 
 typedef long double real;
 __extension__ typedef __int128 exact;

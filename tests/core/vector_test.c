@@ -54,9 +54,12 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
 
 /* The shadow test. */
 #define gn_shade_row twin_shade_row
+#define gn_falloff_row twin_falloff_row
 void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
+void gn_falloff_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
 #include "gn_shade.c"
 #undef gn_shade_row
+#undef gn_falloff_row
 
 /* ---- scenes ---------------------------------------------------------------------------------------------------- */
 

@@ -85,7 +85,8 @@ enum {
     LONG = 4,         /* not in the short list that the slower builds run */
     CULL_BACK = 8,    /* midpoint: with back faces culled */
     CULL_NONE = 16,   /* dual: without culling */
-    NO_NEAR = 32      /* ties are not looked for: five times as fast */
+    NO_NEAR = 32,     /* ties are not looked for: five times as fast */
+    COUNT_TIES = 64   /* pixels on an exact tie of the truth count as well: the case is about them */
 };
 
 typedef struct hard_case {

@@ -154,8 +154,9 @@ int row_begin(hard_row *row, void (*build)(builder *b), int with_near)
     }
     size_t count = (size_t)s->width * s->height;
     row->near = memory_take(count, 1);
+    int count_ties = row->about->flags & COUNT_TIES;
     for (size_t i = 0; i < count; i++)
-        row->near[i] = row->truth.ties[i] || (row->truth.near && row->truth.near[i]) ? 255 : 0;
+        row->near[i] = !count_ties && (row->truth.ties[i] || (row->truth.near && row->truth.near[i])) ? 255 : 0;
     if (row->about->build == build)
         check_truth(row);
     return 0;

@@ -304,11 +304,22 @@ static void random_axes(gn_q2_30 right[3], gn_q2_30 up[3], gn_q2_30 forward[3], 
     memcpy(forward, c.forward, sizeof c.forward);
 }
 
+/* x, z: -across to across; y: least to most; times a unit. One number a statement: the order of arguments is open. */
+static void random_place(int32_t out[3], int32_t across, int32_t least, int32_t most, int32_t unit)
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = unit * (k == 1 ? between(least, most) : between(-across, across));
+}
+
 /* plain: upright axes and round numbers, so that ties are common. */
 static truth_view random_view(int32_t reach, int plain)
 {
-    truth_view v = {.width = plain ? 32 : between(1, 4096), .height = plain ? 32 : between(1, 4096), .reach = reach};
+    truth_view v = {.width = 32, .height = 32, .reach = reach};
     gn_camera *c = &v.camera;
+    if (!plain) {
+        v.width = between(1, 4096);
+        v.height = between(1, 4096);
+    }
     random_axes(c->right, c->up, c->forward, c->eye, plain ? reach : 2 * reach, plain);
     c->projection = (uint8_t)between(0, 1);
     c->tan_half = plain ? 1 << 24 : (gn_q8_24)between(1 << 22, 1 << 25);
@@ -317,7 +328,7 @@ static truth_view random_view(int32_t reach, int plain)
     c->far_depth = 1 << 28;
     random_axes(v.light.right, v.light.up, v.light.forward, v.light.position, plain ? reach : 2 * reach, plain);
     if (plain && between(0, 1))
-        set_axes(v.light.forward, between(-2, 2) * (1 << 28), -(1 << 28), between(-2, 2) * (1 << 28));
+        random_place(v.light.forward, 2, -1, -1, 1 << 28);
     v.light.near_depth = plain ? reach / 16 + 1 : between(1, reach);
     v.light.far_depth = 1 << 28;
     v.light.tan_half = 1 << 24;
@@ -369,7 +380,7 @@ static void filters(uint64_t cases)
     filter_counts random = filter_cases(cases, 0), plain = filter_cases(cases, 1);
     ok(random.differ == 0 && random.cases > 10 * cases, "signs_of_random_lines_are_those_of_exact_arithmetic");
     ok(plain.differ == 0 && plain.cases > 10 * cases, "signs_of_degenerate_lines_are_those_of_exact_arithmetic");
-    if (!ok(plain.zeros > cases / 2 && plain.exact > cases,
+    if (!ok(plain.zeros > cases / 4 && plain.exact > cases / 2,
             "degenerate_lines_have_zeros_that_only_exact_arithmetic_finds"))
         note("%llu zeros, %llu exact decisions", (unsigned long long)plain.zeros, (unsigned long long)plain.exact);
     if (!ok(random.exact * 100 < random.cases, "random_lines_hardly_need_exact_arithmetic"))
@@ -422,7 +433,8 @@ static void measure_widths(widths *w, int kind, int light_kind, uint64_t tries)
             do
                 random_corners(&t[n], 1, WORLD);
             while (!has_area(&t[n]));
-        truth_eye_line(&eye, &view, between(0, 1) * 4096 * 256, between(0, 1) * view.height * 256);
+        int32_t x = between(0, 1) * 4096 * 256, y = between(0, 1) * view.height * 256;
+        truth_eye_line(&eye, &view, x, y);
         truth_line_meets(&eye, &t[0], ignored);
         w->origin = more(w->origin, most_bits(eye.exact.origin));
         w->divisor = more(w->divisor, wide_bits(eye.exact.divisor));
@@ -699,15 +711,17 @@ static void random_scene(scene *s, uint64_t number, int plain)
     int32_t unit = plain ? 1 << 12 : 1;
     int32_t size = (1 << 15) / unit;
     scene_start(s);
-    add_level(s, -size * unit, -2 * size * unit, 2 * size * unit, -2 * size * unit, 2 * size * unit);
+    add_level(s, -size * unit, -5 * size * unit, 5 * size * unit, -5 * size * unit, 5 * size * unit);
     for (int t = 0; t < 24; t++) {
         uint16_t v[3];
         int32_t c[3], near_by = t % 3 ? size / 2 : size;
         for (int k = 0; k < 3; k++)
             c[k] = between(-size / 2, size / 2);
-        for (int i = 0; i < 3; i++)
-            v[i] = add_vertex(s, (c[0] + between(-near_by, near_by)) * unit, (c[1] + between(-near_by, near_by)) * unit,
-                              (c[2] + between(-near_by, near_by)) * unit);
+        for (int i = 0; i < 3; i++) {
+            int32_t at[3];
+            random_place(at, near_by, -near_by, near_by, 1);
+            v[i] = add_vertex(s, (c[0] + at[0]) * unit, (c[1] + at[1]) * unit, (c[2] + at[2]) * unit);
+        }
         add_triangle(s, v[0], v[1], v[2]);
     }
     truth_view v = random_view(1 << 16, plain);
@@ -721,9 +735,12 @@ static void random_scene(scene *s, uint64_t number, int plain)
     s->packed.light = v.light;
     int kind = (int)(number / 2 % 3);
     if (kind == 0) {
-        shine(s, between(-2, 2) * (1 << 28), -(1 << 28), between(-2, 2) * (1 << 28));
+        int32_t way[3];
+        random_place(way, 2, -1, -1, 1 << 28);
+        shine(s, way[0], way[1], way[2]);
     } else {
-        int32_t at[3] = {between(-4, 4) << 12, between(5, 12) << 12, between(-4, 4) << 12};
+        int32_t at[3];
+        random_place(at, 4, 5, 12, 1 << 12);
         shine_down_from(s, at[0], at[1], at[2], 3 << 12, 1 << 17);
         s->packed.light.tan_half = 3 << 23;
         if (kind == 2)
@@ -782,7 +799,7 @@ static void brute_force(uint64_t scenes)
             random_scene(&world, i, plain);
             compare_with_brute_force(&c, &world, i);
         }
-        ok(c.differ == 0 && c.lit * 20 > c.pixels && c.shadowed * 20 > c.pixels && c.empty,
+        ok(c.differ == 0 && c.lit * 20 > c.pixels && c.shadowed * 20 > c.pixels && (plain || c.empty),
            "every_pixel_of_%s_scenes_is_that_of_brute_force", kind);
         ok(c.exact_differ == 0, "%s_scenes_are_the_same_without_double_precision", kind);
         ok(c.missed_ties == 0, "no_tie_of_a_lit_pixel_of_%s_scenes_goes_unmarked", kind);
@@ -980,7 +997,9 @@ static void models(void)
     good = good && cast(&changed, &world, 40, 30, 1, 0);
     for (int i = 0; good && i < 40 * 30; i++)
         differ += plain.mask[i] != changed.mask[i / 40 * 40 + 39 - i % 40];
-    ok(good && differ == 0 && plain.lit > 100 && plain.shadowed > 100, "a_mirrored_scene_has_the_mirrored_truth");
+    if (!ok(good && differ == 0 && plain.lit > 50 && plain.shadowed > 50, "a_mirrored_scene_has_the_mirrored_truth"))
+        note("%llu pixels differ, %llu lit, %llu shadowed", (unsigned long long)differ, (unsigned long long)plain.lit,
+             (unsigned long long)plain.shadowed);
     truth_free(&changed);
     world.packed.light.forward[0] *= -1;
     world.object.model = &halve;
@@ -1045,6 +1064,40 @@ static void eye_ties(void)
     truth_free(&t);
 }
 
+/* floor(+-2001 / 2 + 1/2) = 1001, -1000, and one more from the model's move. */
+static void model_rounding(void)
+{
+    static const gn_model halve = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {1, 0, 0}, 1};
+    scene_start(&world);
+    add_level(&world, 0, -2001, 2001, -2001, 2001);
+    world.object.model = &halve;
+    shine(&world, 0, -(1 << 29), 0);
+    expect_tie(&world, 1002, 400, TRUTH_EYE_EDGE, 254, "a_models_half_units_are_rounded_up");
+    expect_tie(&world, -999, 400, TRUTH_EYE_EDGE, 254, "negative_ones_too");
+}
+
+/* A slope that rises towards -x, dark under light from there, crosses the floor, which is not, at x = 400. Three pixels
+ * at x = 380, 400, 420: the first one sees the slope, and what was seen last is tried first. */
+static void first_in_the_scene(void)
+{
+    static const int32_t slope[4][3] = {{500, -100, -900}, {500, -100, 900}, {300, 100, 900}, {300, 100, -900}};
+    for (int slope_first = 0; slope_first < 2; slope_first++) {
+        truth t;
+        scene_start(&world);
+        if (slope_first)
+            add_quad(&world, slope[0], slope[1], slope[2], slope[3]);
+        add_level(&world, 0, -1000, 1000, -1000, 1000);
+        if (!slope_first)
+            add_quad(&world, slope[0], slope[1], slope[2], slope[3]);
+        shine(&world, 1 << 29, -(1 << 28), 0);
+        look_down(&world, 400, 1 << 20, 130, 10);
+        int good = cast(&t, &world, 3, 1, 1, 0);
+        ok(good && t.mask[0] == 0 && t.mask[1] == (slope_first ? 0 : 254) && t.reasons[1] == TRUTH_EYE_DEPTH,
+           "where_two_surfaces_cross_the_%s_is_seen_as_it_comes_first", slope_first ? "slope" : "floor");
+        truth_free(&t);
+    }
+}
+
 static void light_ties(void)
 {
     scene *s = &world;
@@ -1106,6 +1159,16 @@ static void shadow_ties(void)
     start_ties(s);
     add_wall(s, 300, 100, 400, -500, 700);
     expect_tie(s, 301, 155, TRUTH_NO_TIE, 254, "light_beside_a_wall_along_it_is_no_tie");
+    start_ties(s);
+    add_wall(s, 300, -400, -100, -500, 700);
+    expect_tie(s, 300, 155, TRUTH_NO_TIE, 254, "a_wall_along_the_light_but_beyond_the_point_is_no_tie");
+    start_ties(s);
+    add_quad(s, (int32_t[]){600, 1400, -500}, (int32_t[]){600, 1400, 700}, (int32_t[]){900, 1750, 700},
+             (int32_t[]){900, 1750, -500});
+    shine_down_from(s, 0, 700, 0, 10, 2000); /* in a plane with the way from -600, 0, but behind the light */
+    expect_tie(s, -600, 155, TRUTH_NO_TIE, 254, "a_wall_behind_the_light_is_no_tie");
+    start_ties(s);
+    add_wall(s, 300, 100, 400, -500, 700);
     look_down(s, 300, 50, 155, 100); /* from below the wall: the eye would see its upper edge */
     s->packed.camera.near_depth = 1;
     truth t;
@@ -1208,6 +1271,7 @@ static void near_pixels(void)
 static void workers(void)
 {
     truth one, three;
+    uint64_t near_pixels_seen = 0;
     int good = 1;
     for (uint64_t i = 0; i < 6; i++) {
         random_scene(&world, i, (int)(i & 1));
@@ -1215,11 +1279,12 @@ static void workers(void)
         good = good && memcmp(one.mask, three.mask, 45 * 31) == 0 && memcmp(one.near, three.near, 45 * 31) == 0 &&
                memcmp(one.reasons, three.reasons, 45 * 31) == 0 && memcmp(one.ties, three.ties, 45 * 31) == 0 &&
                one.lit == three.lit && one.near_count == three.near_count && one.tie_count == three.tie_count &&
-               one.exact_decisions == three.exact_decisions && one.lit + one.shadowed == one.surface && one.near_count;
+               one.exact_decisions == three.exact_decisions && one.lit + one.shadowed == one.surface;
+        near_pixels_seen += one.near_count;
         truth_free(&one);
         truth_free(&three);
     }
-    ok(good, "three_workers_give_what_one_gives");
+    ok(good && near_pixels_seen, "three_workers_give_what_one_gives");
 }
 
 static void refusals(void)
@@ -1299,6 +1364,8 @@ int main(int argc, char **argv)
     inside_a_box();
     models();
     eye_ties();
+    first_in_the_scene();
+    model_rounding();
     light_ties();
     shadow_ties();
     watertight();

@@ -1,0 +1,223 @@
+#!/bin/sh
+# every_planted_fault_is_caught: a test that nothing can fail promises nothing.
+#
+#     tests/faults/faults.sh                    the quick faults of list.txt, each against the tests that it names
+#     tests/faults/faults.sh --list [TEXT]      all faults, or those whose names hold TEXT, each against its tests
+#     tests/faults/faults.sh --all [TEXT]       the same, each against all tests: a table, in Markdown
+#
+# Sources are copied once; every fault is planted in a fresh copy of that, so the tree itself is never touched. One build
+# of one depth, without OpenImageIO. JOBS: faults at a time, the machine's processors unless set.
+. tests/tap.sh
+
+mode=${1:-quick}
+text=${2:-}
+case $mode in
+quick | --list | --all) ;;
+*)
+    echo "usage: tests/faults/faults.sh [--list | --all] [TEXT]" >&2
+    exit 2
+    ;;
+esac
+
+folder=$(mktemp -d "${TMPDIR:-/tmp}/gnomon-faults-XXXXXX") || exit 1
+trap 'rm -rf "$folder"' EXIT
+trap 'exit 1' HUP INT TERM
+list=$PWD/tests/faults/list.txt
+plant=$PWD/tests/faults/plant.awk
+clean=$folder/clean
+jobs=${JOBS:-$(nproc)}
+compiler=${CC:-cc}
+
+# What a make that started us has set is not for the copies.
+unset MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES BUILD GNOMON GNOMON_CASES
+# No core files; a fault may well ask for endless memory.
+ulimit -c 0
+ulimit -v 16000000
+
+# ---- the list ------------------------------------------------------------------------------------------------------
+
+has_vectors=$(echo | "$compiler" -march=native -dM -E - | grep -c __AVX2__)
+
+# Lines `NUMBER FILE TESTS|NAME` of the faults that are asked for; TESTS joined by commas.
+faults() {
+    awk -v mode="$mode" -v text="$text" -v has_vectors="$has_vectors" '
+        function finish() {
+            if (name != "" && (mode != "quick" || quick) && (text == "" || index(name, text)) && (has_vectors || !vectors))
+                print number, file, tests "|" name
+            name = ""
+        }
+        /^[^ #]/ { finish(); name = $0; number++; quick = vectors = 0; next }
+        /^    [-+#]/ || NF == 0 { next }
+        $1 == "in" {
+            file = $2
+            for (i = 3; i <= NF; i++) {
+                quick = quick || $i == "quick"
+                vectors = vectors || $i == "vectors"
+            }
+        }
+        $1 == "caught" {
+            tests = $3
+            for (i = 4; i <= NF; i++)
+                tests = tests "," $i
+        }
+        END { finish() }' "$list"
+}
+
+all_tests() {
+    for source in tests/core/*_test.c tests/host/*_test.c tests/host/*_test.sh; do
+        basename "$source" | sed 's/_test\.[a-z]*$//'
+    done
+    echo hard
+    echo hashes
+}
+
+# The tests that are needed.
+tests_in_use() {
+    if [ "$mode" = --all ]; then
+        all_tests
+    else
+        faults | sed 's/|.*//; s/.* //' | tr , '\n' | sort -u
+    fi
+}
+
+# ---- one test in one copy ------------------------------------------------------------------------------------------
+
+in_copy() {
+    make -s --no-print-directory OIIO=no CC="$compiler" CFLAGS=-O1 "$@" </dev/null
+}
+
+# What has to be compiled for a test.
+program_of() {
+    if [ "$1" = hard ]; then
+        echo build/host-16/tests/hard/hard
+    elif [ -f "tests/core/$1_test.c" ]; then
+        echo "build/host-16/tests/core/$1_test"
+    elif [ -f "tests/host/$1_test.c" ]; then
+        echo "build/host-16/tests/host/$1_test"
+    else
+        echo build/gnomon
+    fi
+}
+
+run_hashes() {
+    in_copy build/hashes/host-16.txt && awk -f tests/golden/compare.awk tests/golden/hashes.txt build/hashes/host-16.txt
+}
+
+run_test() {
+    if [ "$1" = hashes ]; then
+        run_hashes
+    elif [ -f "tests/host/$1_test.sh" ]; then
+        timeout 120 sh "tests/host/$1_test.sh"
+    else
+        timeout 120 "$(program_of "$1")"
+    fi
+}
+
+# build_and_run TEST: 0 passed, 1 failed, 2 cannot be built.
+build_and_run() {
+    in_copy "$(program_of "$1")" >build.log 2>&1 || return 2
+    run_test "$1" >test.log 2>&1 || return 1
+}
+
+# ---- one fault -----------------------------------------------------------------------------------------------------
+
+# try NUMBER FILE TESTS: leaves `caught TEST...`, `survived` or `error TEXT` in $folder/NUMBER/result.
+try() (
+    result=$folder/$1/result
+    cp -Rp "$clean" "$folder/$1/copy" && cd "$folder/$1/copy" || exit 1
+    if ! awk -v number="$1" -f "$plant" "$list" "$2" >changed 2>why; then
+        echo "error $(tr '\n' ' ' <why)" >"$result"
+        exit
+    fi
+    cat changed >"$2"
+    caught=
+    [ "$mode" = --all ] && set -- "$1" "$2" "$(all_tests | tr '\n' ,)"
+    for test in $(echo "$3" | tr , ' '); do
+        build_and_run "$test"
+        case $? in
+        1) caught="$caught $test" ;;
+        2)
+            echo "error it does not compile: $(head -n 1 build.log)" >"$result"
+            exit
+            ;;
+        esac
+        if [ -n "$caught" ] && [ "$mode" != --all ]; then break; fi
+    done
+    if [ -n "$caught" ]; then echo "caught$caught"; else echo survived; fi >"$result"
+)
+
+# Take faults until none is left; mkdir tells who came first.
+work() {
+    faults | while IFS='|' read -r what name; do
+        # shellcheck disable=SC2086
+        set -- $what
+        mkdir "$folder/$1" 2>/dev/null || continue
+        try "$@"
+        rm -rf "$folder/$1/copy"
+        [ "$mode" = quick ] || echo "$name: $(cat "$folder/$1/result")" >&2
+    done
+}
+
+try_all() {
+    worker=0
+    while [ "$worker" -lt "$jobs" ]; do
+        work &
+        worker=$((worker + 1))
+    done
+    wait
+}
+
+# ---- the clean tree ------------------------------------------------------------------------------------------------
+
+prepare() {
+    mkdir "$clean" && cp -Rp Makefile core host port tests "$clean" && cd "$clean" || return 1
+    programs=
+    for test in $(tests_in_use); do
+        programs="$programs $(program_of "$test")"
+    done
+    # shellcheck disable=SC2086
+    in_copy -j"$jobs" $programs || return 1
+    for test in $(tests_in_use); do
+        echo "without a fault: $test"
+        run_test "$test" || return 1
+    done
+}
+
+if ! prepared=$(prepare 2>&1); then
+    printf '%s\n' "$prepared" | tail -n 30 | sed 's/^/# /'
+    echo "not ok 1 - the tree passes before a fault is planted"
+    echo "1..1"
+    exit 1
+fi
+
+# ---- what came of it -----------------------------------------------------------------------------------------------
+
+was_caught() {
+    cat "$folder/$1/result"
+    grep -q '^caught' "$folder/$1/result"
+}
+
+print_row() {
+    echo "| $2 | $3 | $(sed 's/^caught //; s/^survived$/**nothing**/; s/ /, /g' "$folder/$1/result") |"
+    grep -q '^caught' "$folder/$1/result"
+}
+
+try_all
+faults >"$folder/faults"
+if [ "$mode" = --all ]; then
+    survivors=0
+    printf '| fault | where | caught by |\n|---|---|---|\n'
+    while IFS='|' read -r what name; do
+        # shellcheck disable=SC2086
+        set -- $what
+        print_row "$1" "$name" "$2" || survivors=$((survivors + 1))
+    done <"$folder/faults"
+    echo "$survivors of $(wc -l <"$folder/faults" | tr -d ' ') not caught" >&2
+    exit $((survivors > 0))
+fi
+while IFS='|' read -r what name; do
+    # shellcheck disable=SC2086
+    set -- $what
+    check "$name ($2)$(sed -n 's/^caught/: caught by/p' "$folder/$1/result")" was_caught "$1"
+done <"$folder/faults"
+finish
