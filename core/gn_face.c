@@ -97,7 +97,7 @@ void gn_project_face(const gn_view *view, const gn_face *f, gn_outline *out)
     gn_face *last = &clipped[from];
     for (int32_t i = 0; last->count >= 3 && i < last->count; i++) {
         if (view->affine && last->infinite[i])
-            continue; /* along the view: no place on the screen */
+            continue; /* rounding left no direction */
         if (!view->affine)
             shorten(&last->place[i]);
         gn_view_project_inside(view, &last->place[i], &out->v[out->count++]);
@@ -117,6 +117,8 @@ gn_place gn_place_direction(const gn_view *view, const int32_t d[3])
     }
     for (int i = 0; i < 3; i++)
         p.c[i] = i < 2 || !view->affine ? gn_wide_round(sum[i], bits - 29) : 0;
+    if (view->affine && p.c[0] == 0 && p.c[1] == 0)
+        p.c[0] = -(1 << 29); /* along the view: as if the view were turned a little to the right (gn_lid_along_view) */
     return p;
 }
 

@@ -42,7 +42,8 @@ void gn_make_nearness(gn_nearness *plane, const gn_eye *eye, const int64_t n[3],
 {
     gn_wide forward = gn_wide_dot(n, eye->forward);
     gn_wide above = eye->perspective ? forward : distance, below = eye->perspective ? distance : forward;
-    plane->base = plane->dx = plane->dy = 0;
+    plane->base = -GN_NEAREST;
+    plane->dx = plane->dy = 0;
     plane->shift = 0;
     if (below.m == 0)
         return;
@@ -80,17 +81,22 @@ static int64_t dot(const int32_t a[3], const int32_t b[3])
     return gn_multiply(a[0], b[0]) + gn_multiply(a[1], b[1]) + gn_multiply(a[2], b[2]);
 }
 
+void gn_reach_depth(gn_reach *reach, const gn_eye *eye, gn_wide w)
+{
+    if (!eye->perspective) {
+        w.e += 2;
+        take_in(reach, -gn_wide_round(w, 0));
+    } else if (w.m <= 0) {
+        take_in(reach, GN_NEAREST); /* the part before the eye begins at its plane */
+    } else {
+        take_in(reach, gn_wide_round(gn_wide_multiply(gn_wide_reciprocal(w), gn_widen(eye->near_depth, 90)), 0));
+    }
+}
+
 void gn_reach_point(gn_reach *reach, const gn_eye *eye, const int32_t point[3])
 {
     int32_t apart[3] = {point[0] - eye->position[0], point[1] - eye->position[1], point[2] - eye->position[2]};
-    int64_t w = dot(apart, eye->forward); /* Q30, below 2^61 */
-    if (!eye->perspective)
-        take_in(reach, -4 * (w > GN_NEAREST / 4 ? GN_NEAREST / 4 : w < -GN_NEAREST / 4 ? -GN_NEAREST / 4 : w));
-    else if (w <= 0)
-        take_in(reach, GN_NEAREST); /* the part before the eye begins at its plane */
-    else
-        take_in(reach,
-                gn_wide_round(gn_wide_multiply(gn_wide_reciprocal(gn_widen(w, 0)), gn_widen(eye->near_depth, 90)), 0));
+    gn_reach_depth(reach, eye, gn_widen(dot(apart, eye->forward), 0));
 }
 
 void gn_reach_ray(gn_reach *reach, const gn_eye *eye, const int32_t direction[3])

@@ -37,12 +37,14 @@ typedef struct gn_reach {
 
 void gn_make_eye(gn_eye *eye, const gn_camera *camera, int32_t width, int32_t height);
 
-/* Nearness of the plane with normal n, |n| <= 2^61, and n . (V - position) for any V on it. Through the eye: 0. */
+/* Nearness of the plane with normal n, |n| <= 2^61, and n . (V - position) for any V on it. Seen edge-on: the least. */
 void gn_make_nearness(gn_nearness *plane, const gn_eye *eye, const int64_t n[3], gn_wide distance);
 
 gn_reach gn_empty_reach(void);
 
-/* Take in a point, |.| <= GN_EYE_MAX; or the end of a ray from such a point along direction, |.| <= 2^30. */
+/* Take in a point at depth w along forward, in 2^-30 units; a point, |.| <= GN_EYE_MAX; or the end of a ray from such a
+ * point along direction, |.| <= 2^30. */
+void gn_reach_depth(gn_reach *reach, const gn_eye *eye, gn_wide w);
 void gn_reach_point(gn_reach *reach, const gn_eye *eye, const int32_t point[3]);
 void gn_reach_ray(gn_reach *reach, const gn_eye *eye, const int32_t direction[3]);
 

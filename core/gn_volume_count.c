@@ -71,11 +71,9 @@ void gn_count_outline(gn_volume_target *t, const gn_outline *o, int32_t winding,
         gn_count_piece(t, &o->v[0], &o->v[i], &o->v[i + 1], winding, window, by);
 }
 
-void gn_set_side_plane(gn_volume_target *t, const gn_eye *eye, const int64_t n[3], const int32_t from[3],
-                       const gn_reach *reach)
+void gn_set_plane(gn_volume_target *t, const gn_eye *eye, const int64_t n[3], gn_wide distance, const gn_reach *reach)
 {
-    int32_t apart[3] = {from[0] - eye->position[0], from[1] - eye->position[1], from[2] - eye->position[2]};
-    gn_make_nearness(&t->plane, eye, n, gn_wide_dot(n, apart));
+    gn_make_nearness(&t->plane, eye, n, distance);
     t->reach.low = gn_floor_shift_64(reach->low, t->plane.shift);
     t->reach.high = gn_floor_shift_64(reach->high, t->plane.shift);
 }

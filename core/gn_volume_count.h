@@ -28,8 +28,7 @@ void gn_count_piece(gn_volume_target *t, const gn_vertex *v0, const gn_vertex *v
 void gn_count_outline(gn_volume_target *t, const gn_outline *o, int32_t winding, const gn_window *window,
                       gn_depth_rule by);
 
-/* Set the plane of a side, through the light and both ends of an edge; from: any point on it. */
-void gn_set_side_plane(gn_volume_target *t, const gn_eye *eye, const int64_t n[3], const int32_t from[3],
-                       const gn_reach *reach);
+/* Set the plane that pixels are compared with: normal n, and n . (V - eye) for any V on it. */
+void gn_set_plane(gn_volume_target *t, const gn_eye *eye, const int64_t n[3], gn_wide distance, const gn_reach *reach);
 
 #endif

@@ -60,7 +60,7 @@ static void draw_silhouette(gn_volume_region *r, const gn_silhouette *s)
     const gn_light *light = &r->context->light;
     const gn_view *view = &r->volumes->view;
     const gn_eye *eye = &r->volumes->eye;
-    int32_t world[2][3], along[3];
+    int32_t world[2][3], along[3], apart[3];
     int64_t n[3];
     gn_corner ends[2];
     gn_outline side, lid;
@@ -75,7 +75,9 @@ static void draw_silhouette(gn_volume_region *r, const gn_silhouette *s)
     for (int i = 0; i < 3; i++)
         along[i] = light->kind == GN_SPOT ? ends[1].away[i] : world[1][i] - world[0][i];
     gn_cross(n, ends[0].away, along);
-    gn_set_side_plane(&r->target, eye, n, world[0], &reach);
+    for (int i = 0; i < 3; i++)
+        apart[i] = world[0][i] - eye->position[i];
+    gn_set_plane(&r->target, eye, n, gn_wide_dot(n, apart), &reach);
     gn_count_outline(&r->target, &side, winding, r->window, GN_COMPARED);
     if (light->kind != GN_SPOT || view->affine)
         return;
@@ -231,6 +233,8 @@ static void find_rows(gn_context *context)
     const gn_light *light = &context->light;
     gn_place axis = gn_place_direction(&volumes->view, light->forward);
     volumes->outside = light->kind == GN_SPOT;
+    if (light->kind == GN_SPOT && volumes->view.affine && volumes->crossing)
+        volumes->outside = (uint16_t)(volumes->outside + gn_cut_lids_along_view(context));
     for (uint32_t i = 0; i < volumes->silhouette_count; i++) {
         gn_silhouette *s = &volumes->silhouettes[i];
         int32_t world[2][3];

@@ -6,8 +6,9 @@
 
 /* The part beyond the plane, three or four corners. */
 typedef struct cut {
+    int32_t world[3][3]; /* of the whole triangle */
     gn_corner corners[4];
-    int32_t count;
+    int32_t count, winding;
 } cut;
 
 static int64_t beyond_near(const gn_light *light, const int32_t world[3])
@@ -43,15 +44,21 @@ static void set_cut(gn_corner *c, const gn_view *view, const gn_corner *a, const
     c->direction = gn_place_direction(view, c->away);
 }
 
-static void cut_at_near(cut *out, const gn_view *view, const gn_light *light, int32_t world[3][3])
+static void find_cut(cut *out, const gn_context *context, const gn_object *object, uint32_t triangle)
 {
+    const gn_view *view = &context->volumes->view;
+    const gn_light *light = &context->light;
     gn_corner corners[3];
     int64_t d[3];
-    out->count = 0;
+    uint32_t index[3];
+    gn_triangle_indices(object->mesh, triangle, index);
     for (int i = 0; i < 3; i++) {
-        gn_set_corner(&corners[i], view, light, world[i]);
-        d[i] = beyond_near(light, world[i]);
+        (void)gn_world_position(object, index[i], out->world[i]);
+        gn_set_corner(&corners[i], view, light, out->world[i]);
+        d[i] = beyond_near(light, out->world[i]);
     }
+    out->winding = gn_light_side(light, out->world);
+    out->count = 0;
     for (int i = 0; i < 3; i++) {
         int next = i < 2 ? i + 1 : 0;
         if (d[i] >= 0)
@@ -63,29 +70,25 @@ static void cut_at_near(cut *out, const gn_view *view, const gn_light *light, in
 
 static void draw_cut_volume(gn_volume_region *r, uint32_t number, uint32_t triangle)
 {
-    const gn_object *object = &r->context->scene->objects[number];
     const gn_light *light = &r->context->light;
     const gn_view *view = &r->volumes->view;
     const gn_eye *eye = &r->volumes->eye;
     gn_reach reach = gn_empty_reach();
-    int32_t world[3][3];
-    uint32_t index[3];
+    int32_t apart[3];
     cut c;
     gn_face cap;
     gn_outline o;
-    gn_triangle_indices(object->mesh, triangle, index);
-    for (int i = 0; i < 3; i++)
-        (void)gn_world_position(object, index[i], world[i]);
-    int32_t winding = gn_light_side(light, world);
+    find_cut(&c, r->context, &r->context->scene->objects[number], triangle);
     r->target.own[0] = r->target.own[1] = number << r->context->triangle_bits | triangle;
-    cut_at_near(&c, view, light, world);
     cap.count = 0;
     for (int32_t i = 0; i < c.count; i++)
         gn_add_corner(&cap, &c.corners[i].place, 0);
     gn_project_face(view, &cap, &o);
-    gn_count_outline(&r->target, &o, winding, r->window, GN_BEHIND);
-    for (int i = 0; i < 3; i++)
-        gn_reach_point(&reach, eye, world[i]);
+    gn_count_outline(&r->target, &o, c.winding, r->window, GN_BEHIND);
+    for (int i = 0; i < 3; i++) {
+        gn_reach_point(&reach, eye, c.world[i]);
+        apart[i] = light->position[i] - eye->position[i];
+    }
     for (int32_t i = 0; i < c.count; i++)
         gn_reach_ray(&reach, eye, c.corners[i].away);
     for (int32_t i = 0; i < c.count; i++) {
@@ -93,12 +96,12 @@ static void draw_cut_volume(gn_volume_region *r, uint32_t number, uint32_t trian
         int64_t n[3];
         gn_cross(n, a->away, b->away);
         gn_make_side(&o, view, light, a, b);
-        gn_set_side_plane(&r->target, eye, n, light->position, &reach);
-        gn_count_outline(&r->target, &o, winding, r->window, GN_COMPARED);
+        gn_set_plane(&r->target, eye, n, gn_wide_dot(n, apart), &reach);
+        gn_count_outline(&r->target, &o, c.winding, r->window, GN_COMPARED);
         if (view->affine)
             continue;
         gn_make_lid(&o, view, &r->axis, a, b);
-        gn_count_outline(&r->target, &o, winding, r->window, GN_BEHIND);
+        gn_count_outline(&r->target, &o, c.winding, r->window, GN_BEHIND);
     }
 }
 
@@ -133,6 +136,23 @@ static gn_place frustum_corner(const gn_view *view, const gn_light *light, int w
     return p;
 }
 
+/* How far its corners are along the camera's forward, in 2^-30 units. */
+static gn_wide corner_depth(const gn_eye *eye, const gn_light *light, int which)
+{
+    int64_t ahead = 0, right = 0, up = 0, at = 0;
+    for (int i = 0; i < 3; i++) {
+        ahead += gn_multiply(light->forward[i], eye->forward[i]);
+        right += gn_multiply(light->right[i], eye->forward[i]);
+        up += gn_multiply(light->up[i], eye->forward[i]);
+        at += gn_multiply(light->position[i] - eye->position[i], eye->forward[i]);
+    }
+    gn_wide across =
+        gn_wide_multiply(gn_wide_add(gn_widen(which & 1 ? right : -right, 0), gn_widen(which & 2 ? up : -up, 0)),
+                         gn_widen(light->tan_half, -24));
+    gn_wide depth = gn_widen(which & 4 ? light->far_depth : light->near_depth, -30);
+    return gn_wide_add(gn_wide_multiply(gn_wide_add(gn_widen(ahead, 0), across), depth), gn_widen(at, 0));
+}
+
 /* Its planes, normals outward: near, far, right, left, above, below; and the distance of each from the light, times
  * the normal's length. */
 static int64_t frustum_plane(int64_t n[3], const gn_light *light, int which)
@@ -156,7 +176,6 @@ void gn_count_frustum(gn_volume_region *r)
                                           {4, 0, 2, 6}, {2, 3, 7, 6}, {1, 0, 4, 5}};
     const gn_light *light = &r->context->light;
     const gn_eye *eye = &r->volumes->eye;
-    gn_reach everywhere = {-GN_NEAREST, GN_NEAREST};
     int32_t apart[3];
     r->target.own[0] = r->target.own[1] = GN_NO_TRIANGLE;
     for (int i = 0; i < 3; i++)
@@ -164,48 +183,58 @@ void gn_count_frustum(gn_volume_region *r)
     for (int which = 0; which < 6; which++) {
         gn_face f;
         gn_outline o;
+        gn_reach reach = gn_empty_reach();
         int64_t n[3], offset = frustum_plane(n, light, which);
         f.count = 0;
         for (int i = 0; i < 4; i++) {
             gn_place p = frustum_corner(&r->volumes->view, light, corners[which][i]);
             gn_add_corner(&f, &p, 0);
+            gn_reach_depth(&reach, eye, corner_depth(eye, light, corners[which][i]));
         }
         gn_project_face(&r->volumes->view, &f, &o);
-        gn_make_nearness(&r->target.plane, eye, n, gn_wide_add(gn_wide_dot(n, apart), gn_widen(offset, 0)));
-        r->target.reach = everywhere;
+        gn_set_plane(&r->target, eye, n, gn_wide_add(gn_wide_dot(n, apart), gn_widen(offset, 0)), &reach);
         gn_count_outline(&r->target, &o, -1, r->window, GN_COMPARED);
     }
 }
 
-/* ---- the lid, seen by an orthographic camera ------------------------------------------------------------------ */
+/* ---- the lid, seen by an orthographic camera ------------------------------------------------------------------- */
 
-/* p before q, so that a tie of three directions is settled the same way from both sides. */
-static int precedes(const int32_t p[3], const int32_t q[3])
-{
-    for (int i = 0; i < 3; i++)
-        if (p[i] != q[i])
-            return p[i] < q[i];
-    return 0;
-}
-
-/* The way from p to q about d. */
-static int turn(const int32_t p[3], const int32_t q[3], const int32_t d[3])
+/* The way from p to q about the camera's forward; in a tie about a view turned a little to its right, then up. */
+static int turn(const gn_camera *camera, const int32_t p[3], const int32_t q[3])
 {
     int64_t n[3];
     gn_cross(n, p, q);
-    int sign = gn_dot_sign(n, d);
-    return sign ? sign : precedes(p, q) ? 1 : -1;
+    int sign = gn_dot_sign(n, camera->forward);
+    sign = sign ? sign : gn_dot_sign(n, camera->right);
+    return sign ? sign : gn_dot_sign(n, camera->up);
 }
 
-/* How often a part of the lid covers the one direction in which an orthographic camera looks. */
 uint32_t gn_lid_along_view(const gn_context *context, const int32_t a[3], const int32_t b[3], int32_t winding)
 {
     const int32_t *forward = context->camera.forward, *axis = context->light.forward;
-    int first = turn(b, a, forward), second = turn(a, axis, forward), third = turn(axis, b, forward);
+    int first = turn(&context->camera, b, a), second = turn(&context->camera, a, axis),
+        third = turn(&context->camera, axis, b);
     if (first != second || second != third)
         return 0;
     int64_t along = 0; /* the cone, not its mirror image */
     for (int i = 0; i < 3; i++)
         along += gn_multiply(axis[i], forward[i]);
-    return along > 0 ? (uint32_t)(first > 0 ? -winding : winding) : 0;
+    return along > 0 ? (uint32_t)(first > 0 ? winding : -winding) : 0;
+}
+
+uint32_t gn_cut_lids_along_view(const gn_context *context)
+{
+    const gn_scene *scene = context->scene;
+    uint32_t sum = 0;
+    for (uint32_t o = 0; o < scene->object_count; o++)
+        for (uint32_t t = 0; t < scene->objects[o].mesh->triangle_count; t++) {
+            cut c;
+            if (gn_facing_of(context->volumes->facings, context->objects[o].first_triangle + t) != GN_CROSSES_NEAR)
+                continue;
+            find_cut(&c, context, &scene->objects[o], t);
+            for (int32_t i = 0; i < c.count; i++)
+                sum += gn_lid_along_view(context, c.corners[i].away, c.corners[i + 1 < c.count ? i + 1 : 0].away,
+                                         c.winding);
+        }
+    return sum;
 }

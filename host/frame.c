@@ -191,8 +191,7 @@ int frame_open(frame *f, const gn_scene *scene, const gn_settings *settings, int
         f->settings.map_rows = (uint16_t)((f->settings.map_height + f->settings.workers - 1) / f->settings.workers);
     /* a volume's side is set up anew for every region that it crosses */
     if (f->settings.shadow == GN_SHADOW_VOLUMES && !f->settings.region_height)
-        f->settings.region_height =
-            (uint16_t)((f->settings.height + 2 * f->settings.workers - 1) / (2 * f->settings.workers));
+        f->settings.region_height = (uint16_t)((f->settings.height + f->settings.workers - 1) / f->settings.workers);
     gn_status status = gn_make_plan(&f->plan, scene, &f->settings);
     if (status != GN_OK)
         return problem_of_usage(why, "the core refuses the scene: %s", render_status_text(status));

@@ -30,8 +30,8 @@ compiler=${CC:-cc}
 
 # What a make that started us has set is not for the copies.
 unset MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES BUILD GNOMON GNOMON_CASES
-# No core files; a fault may well ask for endless memory.
-ulimit -c 0
+# A fault may well ask for endless memory.
+# shellcheck disable=SC3045
 ulimit -v 16000000
 
 # ---- the list ------------------------------------------------------------------------------------------------------
@@ -65,7 +65,7 @@ faults() {
 
 all_tests() {
     for source in tests/core/*_test.c tests/host/*_test.c tests/host/*_test.sh; do
-        basename "$source" | sed 's/_test\.[a-z]*$//'
+        basename "$source" .c | sed 's/_test//'
     done
     echo hard
     echo hashes
@@ -86,17 +86,20 @@ in_copy() {
     make -s --no-print-directory OIIO=no CC="$compiler" CFLAGS=-O1 "$@" </dev/null
 }
 
-# What has to be compiled for a test.
+# What has to be compiled for a test: NAME, or NAME/DEPTH where that is not 16.
 program_of() {
-    if [ "$1" = hard ]; then
-        echo build/host-16/tests/hard/hard
-    elif [ -f "tests/core/$1_test.c" ]; then
-        echo "build/host-16/tests/core/$1_test"
-    elif [ -f "tests/host/$1_test.c" ]; then
-        echo "build/host-16/tests/host/$1_test"
-    else
-        echo build/gnomon
-    fi
+    name=${1%/*}
+    depth=16
+    [ "$name" = "$1" ] || depth=${1#*/}
+    case $name in
+    hard) echo "build/host-$depth/tests/hard/hard" ;;
+    hashes | *.sh) echo build/gnomon ;;
+    *)
+        for source in "tests/core/${name}_test.c" "tests/host/${name}_test.c"; do
+            [ -f "$source" ] && echo "build/host-$depth/${source%.c}"
+        done
+        ;;
+    esac
 }
 
 run_hashes() {
@@ -104,18 +107,17 @@ run_hashes() {
 }
 
 run_test() {
-    if [ "$1" = hashes ]; then
-        run_hashes
-    elif [ -f "tests/host/$1_test.sh" ]; then
-        timeout 120 sh "tests/host/$1_test.sh"
-    else
-        timeout 120 "$(program_of "$1")"
-    fi
+    case $1 in
+    hashes) run_hashes ;;
+    *.sh) timeout 120 sh "tests/host/${1%.sh}_test.sh" ;;
+    *) timeout 120 "$(program_of "$1")" ;;
+    esac
 }
 
 # build_and_run TEST: 0 passed, 1 failed, 2 cannot be built.
 build_and_run() {
-    in_copy "$(program_of "$1")" >build.log 2>&1 || return 2
+    program=$(program_of "$1")
+    in_copy "${program:-no-test-named-$1}" >build.log 2>&1 || return 2
     run_test "$1" >test.log 2>&1 || return 1
 }
 
@@ -137,7 +139,7 @@ try() (
         case $? in
         1) caught="$caught $test" ;;
         2)
-            echo "error it does not compile: $(head -n 1 build.log)" >"$result"
+            echo "error $test cannot be built: $(head -n 1 build.log)" >"$result"
             exit
             ;;
         esac
@@ -192,6 +194,7 @@ fi
 
 # ---- what came of it -----------------------------------------------------------------------------------------------
 
+# shellcheck disable=SC2317
 was_caught() {
     cat "$folder/$1/result"
     grep -q '^caught' "$folder/$1/result"

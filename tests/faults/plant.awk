@@ -32,10 +32,11 @@ file == 1 && block == number {
 file == 1 { next }
 
 {
+    line = $0
     for (i = 1; i <= changes; i++) {
-        found[i] += count($0, old[i])
+        found[i] += count(line, old[i])
         at = index($0, old[i])
-        if (at)
+        if (at && index(line, old[i]))
             $0 = substr($0, 1, at - 1) new[i] substr($0, at + length(old[i]))
     }
     print

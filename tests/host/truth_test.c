@@ -1090,7 +1090,7 @@ static void first_in_the_scene(void)
         if (!slope_first)
             add_quad(&world, slope[0], slope[1], slope[2], slope[3]);
         shine(&world, 1 << 29, -(1 << 28), 0);
-        look_down(&world, 400, 1 << 20, 130, 10);
+        look_down(&world, 400, 1 << 20, -500, 10);
         int good = cast(&t, &world, 3, 1, 1, 0);
         ok(good && t.mask[0] == 0 && t.mask[1] == (slope_first ? 0 : 254) && t.reasons[1] == TRUTH_EYE_DEPTH,
            "where_two_surfaces_cross_the_%s_is_seen_as_it_comes_first", slope_first ? "slope" : "floor");
