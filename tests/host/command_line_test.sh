@@ -139,7 +139,7 @@ check "nothing_to_write_is_refused" refuses "nothing to write" render "$scene"
 check "an_option_without_its_value_is_refused" refuses "lacks its value" render "$scene" -o
 check "an_option_given_twice_is_refused" refuses "given twice" render "$scene" --map 8 --map=9 -o "$folder/new.ppm"
 check "an_unknown_method_is_refused" refuses "--method best" render "$scene" --method best -o "$folder/new.ppm"
-for method in slope adaptive silhouette volumes; do
+for method in slope adaptive silhouette; do
     check "method_${method}_is_not_built_yet" refuses "not built yet" render "$scene" --method $method -o "$folder/new.ppm"
 done
 check "slope_surface_is_not_built_yet" refuses "not built yet" render "$scene" --virtual-surface slope -o "$folder/new.ppm"
