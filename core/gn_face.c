@@ -78,29 +78,52 @@ static void shorten(gn_place *p)
     p->c[2] = p->c[2] < 1 ? 1 : p->c[2];
 }
 
+/* Some corner lies beyond the plane: else clipping there changes nothing. */
+static int is_cut(const gn_view *view, const gn_face *f, int plane)
+{
+    for (int32_t i = 0; i < f->count; i++)
+        if (distance(view, f, i, plane) < 0)
+            return 1;
+    return 0;
+}
+
+/* All corners lie inside all planes, as mostly they do. */
+static int is_inside(const gn_view *view, const gn_face *f)
+{
+    for (int32_t i = 0; i < f->count; i++) {
+        const int64_t *c = f->place[i].c;
+        int64_t reach = view->guard * c[2];
+        if (view->affine || c[2] < (f->infinite[i] ? 0 : view->near_w) || c[0] > reach || c[0] < -reach ||
+            c[1] > reach || c[1] < -reach)
+            return 0;
+    }
+    return 1;
+}
+
 void gn_project_face(const gn_view *view, const gn_face *f, gn_outline *out)
 {
     gn_face clipped[2];
-    int from = 0;
+    const gn_face *last = f;
+    int to = 0, infinite = 0;
+    int planes = is_inside(view, f) ? 0 : GN_CLIP_PLANES;
     out->count = 0;
-    clipped[0] = *f;
-    int infinite = 0;
     for (int32_t i = 0; i < f->count; i++)
         infinite |= f->infinite[i];
-    for (int plane = 0; plane < GN_CLIP_PLANES && clipped[from].count >= 3; plane++) {
+    for (int plane = 0; plane < planes && last->count >= 3; plane++) {
         /* the far plane; and what an orthographic camera compares need not be cut at the near plane */
-        if (plane == (view->affine ? 0 : 1) || (plane == 1 && infinite))
+        if (plane == (view->affine ? 0 : 1) || (plane == 1 && infinite) || !is_cut(view, last, plane))
             continue;
-        clip_face(view, &clipped[from], &clipped[from ^ 1], plane);
-        from ^= 1;
+        clip_face(view, last, &clipped[to], plane);
+        last = &clipped[to];
+        to ^= 1;
     }
-    gn_face *last = &clipped[from];
     for (int32_t i = 0; last->count >= 3 && i < last->count; i++) {
+        gn_place place = last->place[i];
         if (view->affine && last->infinite[i])
             continue; /* rounding left no direction */
         if (!view->affine)
-            shorten(&last->place[i]);
-        gn_view_project_inside(view, &last->place[i], &out->v[out->count++]);
+            shorten(&place);
+        gn_view_project_inside(view, &place, &out->v[out->count++]);
     }
 }
 
@@ -113,7 +136,7 @@ gn_place gn_place_direction(const gn_view *view, const int32_t d[3])
         const gn_row *row = &view->row[i];
         sum[i] = gn_widen(gn_multiply(row->m[0], d[0]) + gn_multiply(row->m[1], d[1]) + gn_multiply(row->m[2], d[2]),
                           -row->shift);
-        bits = gn_wide_bits(sum[i]) > bits && (i < 2 || !view->affine) ? gn_wide_bits(sum[i]) : bits;
+        bits = (i < 2 || !view->affine) && gn_wide_bits(sum[i]) > bits ? gn_wide_bits(sum[i]) : bits;
     }
     for (int i = 0; i < 3; i++)
         p.c[i] = i < 2 || !view->affine ? gn_wide_round(sum[i], bits - 29) : 0;

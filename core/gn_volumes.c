@@ -55,7 +55,7 @@ static int32_t find_edge(const gn_context *context, const gn_silhouette *s, int3
     return winding;
 }
 
-static void draw_silhouette(gn_volume_region *r, const gn_silhouette *s)
+static GN_NOINLINE void draw_silhouette(gn_volume_region *r, const gn_silhouette *s)
 {
     const gn_light *light = &r->context->light;
     const gn_view *view = &r->volumes->view;
@@ -136,7 +136,7 @@ static GN_NOINLINE void draw_caps(gn_volume_region *r)
 
 /* ---- the visible points ---------------------------------------------------------------------------------------- */
 
-static void set_seen_plane(const gn_context *context, gn_seen_plane *seen, uint32_t identifier)
+static GN_NOINLINE void set_seen_plane(const gn_context *context, gn_seen_plane *seen, uint32_t identifier)
 {
     const gn_volumes *volumes = context->volumes;
     const gn_camera *camera = &context->camera;
