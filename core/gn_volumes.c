@@ -4,8 +4,8 @@
  * away from the light to infinity, and for a spot light a lid at infinity. A pixel's point is shadowed where a volume
  * holds it. Sides of neighbours that face the light alike cancel, so sides are drawn over silhouette edges only, with
  * their winding (gn_silhouette.h); caps are all triangles, closed or open, so neither a camera nor a light inside a
- * solid, nor a solid inside out, is a special case. The frustum of a spot light is one more volume, of winding -1, and
- * a pixel's count then begins with 1: what lies outside is shadowed.
+ * solid, nor a solid inside out, is a special case. The frustum of a spot light is one more volume, of a great
+ * negative winding, and a pixel's count then begins with it: what lies outside is shadowed.
  *
  * Counting is z-fail: faces behind the visible point, +1 where they turn away from the camera, -1 where they turn to
  * it; what the near plane cuts off is before every point and never missed. Nothing is cut at the far plane. A cap is
@@ -17,8 +17,8 @@
  * the two planes in the wrong order.) Coverage is that of the snapped corners, the same for both faces at an edge:
  * counts are closed.
  *
- * Memory: per pixel of a region and worker 10 bytes beside visibility's 8. Counts are modulo 2^16, so 65,536 volumes
- * over one point would be none. Cost: a side is set up once for every region that its rows touch. */
+ * Memory: per pixel of a region and worker 10 bytes beside visibility's 8. Counts are modulo 2^16: 16,384 volumes
+ * may hold a point. Cost: a side is set up once for every region that its rows touch. */
 #include "gn_volumes.h"
 
 #include "gn_bins.h"
@@ -232,7 +232,7 @@ static void find_rows(gn_context *context)
     gn_volumes *volumes = context->volumes;
     const gn_light *light = &context->light;
     gn_place axis = gn_place_direction(&volumes->view, light->forward);
-    volumes->outside = light->kind == GN_SPOT;
+    volumes->outside = light->kind == GN_SPOT ? GN_FRUSTUM_WINDING : 0;
     if (light->kind == GN_SPOT && volumes->view.affine && volumes->crossing)
         volumes->outside = (uint16_t)(volumes->outside + gn_cut_lids_along_view(context));
     for (uint32_t i = 0; i < volumes->silhouette_count; i++) {

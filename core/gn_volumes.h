@@ -30,6 +30,9 @@ typedef struct gn_volumes {
     gn_volumes_worker *workers;
 } gn_volumes;
 
+/* What the frustum of a spot light counts: more than casters can cancel, however snapping has turned their faces. */
+#define GN_FRUSTUM_WINDING 0x4000
+
 /* A region at work. */
 typedef struct gn_volume_region {
     const gn_context *context;

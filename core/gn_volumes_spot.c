@@ -193,7 +193,7 @@ void gn_count_frustum(gn_volume_region *r)
         }
         gn_project_face(&r->volumes->view, &f, &o);
         gn_set_plane(&r->target, eye, n, gn_wide_add(gn_wide_dot(n, apart), gn_widen(offset, 0)), &reach);
-        gn_count_outline(&r->target, &o, -1, r->window, GN_COMPARED);
+        gn_count_outline(&r->target, &o, -GN_FRUSTUM_WINDING, r->window, GN_COMPARED);
     }
 }
 

@@ -315,10 +315,10 @@ static int poster_by_hand(const double p[3])
 #define GROUP "Meshes"
 
 static const hard_case cases[] = {
-    {.name = "fan", .group = GROUP, .source = "", .title = "floor of 300 slivers, down to a thousandth of a pixel",
+    {.name = "fan", .group = GROUP, .flags = LONG, .source = "", .title = "floor of 300 slivers, down to a thousandth of a pixel",
      .expected = "as with two triangles: none errs", .advice = "Slivers cost time only, unless they are edge-on as well.",
      .build = build_fan, .by_hand = fan_by_hand},
-    {.name = "fine_sphere", .group = GROUP, .source = "", .title = "sphere, facets of half a texel",
+    {.name = "fine_sphere", .group = GROUP, .flags = LONG, .source = "", .title = "sphere, facets of half a texel",
      .expected = "none errs but along the terminator",
      .advice = "Facets need not be larger than texels.",
      .build = build_fine_sphere,
@@ -344,7 +344,7 @@ static const hard_case cases[] = {
     {.name = "coplanar_sheets", .group = GROUP, .source = "", .title = "two sheets in one plane, overlapping",
      .expected = "all that uses the second surface: half of the overlap's texels are dark, 7.5 %; second depth half of all, 46 %",
      .advice = "Remove doubled faces; else only `constant` (and `volumes`) serve.",
-     .build = build_coplanar_sheets, .by_hand = coplanar_by_hand, .flags = COUNT_TIES, .picture = METHOD_MIXED + 1,
+     .build = build_coplanar_sheets, .by_hand = coplanar_by_hand, .flags = COUNT_TIES | LONG, .picture = METHOD_MIXED + 1,
      /* The overlap, v from -0.15 to 0.15, holds the centres of four rows of texels, each six columns of pixels, of which the
       * three behind the centre are dark, as no gap leaves no bias: 12 of 160 columns. */
      .methods = {[METHOD_MIDPOINT] = SHADOW(7, 8), [METHOD_DUAL] = SHADOW(7, 8), [METHOD_SECOND] = SHADOW(43, 49),
@@ -355,7 +355,7 @@ static const hard_case cases[] = {
      .build = build_coplanar_solids, .by_hand = coplanar_by_hand, .flags = COUNT_TIES,
      /* As the sheets; and one row more, whose centre sees one solid's end just behind the other's top. */
      .methods = {[METHOD_MIDPOINT] = SHADOW(7.4, 9.5), [METHOD_DUAL] = SHADOW(7.4, 9.5), [METHOD_MIXED] = SHADOW(7.4, 9.5)}},
-    {.name = "aligned_block", .group = GROUP, .source = "", .title = "block on a floor, along the light, map 32",
+    {.name = "aligned_block", .group = GROUP, .flags = LONG, .source = "", .title = "block on a floor, along the light, map 32",
      .expected = "no leak along the contact, by any method", .advice = "As it should be.",
      .build = build_aligned_block, .by_hand = aligned_block_by_hand},
     {.name = "turned_block", .group = GROUP, .source = "", .title = "the same turned by 30 degrees",
@@ -384,7 +384,7 @@ static const hard_case cases[] = {
      .build = build_crossing, .by_hand = crossing_by_hand, .picture = METHOD_DUAL + 1,
      .methods = {[METHOD_CONSTANT] = LIGHT(0.2, 1.6), [METHOD_MIDPOINT] = SHADOW(3.5, 6), [METHOD_DUAL] = SHADOW(3.5, 6),
                  [METHOD_MIXED] = SHADOW(1.5, 3.2)}},
-    {.name = "nested", .group = GROUP, .source = "", .title = "solid inside a solid, walls 1.6 texels",
+    {.name = "nested", .group = GROUP, .flags = LONG, .source = "", .title = "solid inside a solid, walls 1.6 texels",
      .expected = "none errs", .advice = "Walls need half a texel for second depth, a whole one for midpoint and dual.",
      .build = build_nested, .by_hand = nested_by_hand},
     {.name = "inside_out", .group = GROUP, .source = "", .title = "block marked closed, but inside out",
@@ -394,10 +394,10 @@ static const hard_case cases[] = {
      /* Midpoint: towards the back edge of the top, a quarter of a texel on the map, 0.03 m x 1 m: 0.4 %. */
      .methods = {[METHOD_MIDPOINT] = SHADOW(0, 0.4), [METHOD_DUAL] = LIGHT(0, 0.3), [METHOD_SECOND] = SHADOW(4, 5.6),
                  [METHOD_AUTO] = SHADOW(4, 5.6)}},
-    {.name = "canopy", .group = GROUP, .source = "", .title = "open sheet over a solid floor",
+    {.name = "canopy", .group = GROUP, .flags = LONG, .source = "", .title = "open sheet over a solid floor",
      .expected = "second depth: half of the sheet, 4.8 %; the others none", .advice = "`auto` takes mixed.",
      .build = build_canopy, .by_hand = canopy_by_hand, .methods = {[METHOD_SECOND] = SHADOW(4, 5.6)}},
-    {.name = "poster", .group = GROUP, .source = "", .title = "open sheet 1/4 texel before a solid",
+    {.name = "poster", .group = GROUP, .flags = LONG, .source = "", .title = "open sheet 1/4 texel before a solid",
      .expected = "midpoint, dual, mixed, auto: a third of the sheet, 3.2 %; second depth half",
      .advice = "Lay it on the solid (culled away by it), or farther off: half the gap must exceed half a texel's slope.",
      .build = build_poster, .by_hand = poster_by_hand, .picture = METHOD_AUTO + 1,

@@ -146,12 +146,12 @@ static int edge_on_camera_by_hand(const double p[3])
 #define GROUP "Grazing light, edge-on triangles"
 
 static const hard_case cases[] = {
-    {.name = "grazing_20_degrees", .group = GROUP, .source = "", .title = "sun at 20 degrees, floor solid",
+    {.name = "grazing_20_degrees", .group = GROUP, .flags = LONG, .source = "", .title = "sun at 20 degrees, floor solid",
      .expected = "half a texel spans 1.37 texels: 2 texels suffice", .advice = "As it should be.",
      .build = build_solid_at_20, .by_hand = at_20_by_hand,
      /* The block's top falls to its back edge; the midpoint there is within 0.25 t of the front. */
      .methods = {[METHOD_MIDPOINT] = SHADOW(0, 2)}},
-    {.name = "grazing_10_degrees", .group = GROUP, .source = "", .title = "10 degrees",
+    {.name = "grazing_10_degrees", .group = GROUP, .flags = LONG, .source = "", .title = "10 degrees",
      .expected = "constant, dual: acne where 2.84 texels are spanned, 10.5 %; second depth, mixed, auto none",
      .advice = "c texels serve down to atan(1 / 2c) above the surface: 2 texels 14 degrees, 8 texels 3.6.",
      .build = build_solid_at_10, .by_hand = at_10_by_hand,
@@ -170,13 +170,13 @@ static const hard_case cases[] = {
       * block's top, whose centre stands on its front: 2.3 m^2. Midpoint, the slab ends at 1.95: dark from 1.42 on, 0.37 m^2,
       * and half of the block's top, 0.15 m^2. */
      .methods = {[METHOD_CONSTANT] = SHADOW(26, 29), [METHOD_MIDPOINT] = SHADOW(5, 7.5), [METHOD_DUAL] = SHADOW(26, 29)}},
-    {.name = "grazing_1_degree", .group = GROUP, .source = "", .title = "1 degree",
+    {.name = "grazing_1_degree", .group = GROUP, .flags = LONG, .source = "", .title = "1 degree",
      .expected = "the floor falls by more than a quarter of the light's range in a texel: such planes are drawn flat at their "
                  "farthest corner, and lit. One row of texels: the block's shadow, x < 0, is lit, 13 %: the texel's",
      .advice = "What is lower than a texel per length of the floor no map resolves: `volumes`, or a light box around what "
                "matters.",
      .build = build_solid_at_1, .by_hand = at_1_by_hand},
-    {.name = "grazing_tenth", .group = GROUP, .source = "", .title = "0.1 degree",
+    {.name = "grazing_tenth", .group = GROUP, .flags = LONG, .source = "", .title = "0.1 degree",
      .expected = "the row x < 0 holds the slab's side: constant, dual dark, 33 %. Second depth: the block's shadow, x < 0, is "
                  "lit, 13 %: the texel's",
      .advice = "As above.",
@@ -187,7 +187,7 @@ static const hard_case cases[] = {
     {.name = "grazing_hundredth", .group = GROUP, .source = "", .title = "0.01 degree", .expected = "the same",
      .advice = "As above.", .build = build_solid_at_hundredth, .by_hand = at_hundredth_by_hand, .picture = METHOD_SECOND + 1,
      .methods = {[METHOD_CONSTANT] = SHADOW(30, 35), [METHOD_DUAL] = SHADOW(30, 35)}},
-    {.name = "sheet_20_degrees", .group = GROUP, .source = "", .title = "20 degrees, floor an open sheet",
+    {.name = "sheet_20_degrees", .group = GROUP, .flags = LONG, .source = "", .title = "20 degrees, floor an open sheet",
      .expected = "second depth: half of the lit floor is dark, 42 %; the others none",
      .advice = "Second depth is not for open meshes; `auto` takes mixed.",
      .build = build_sheet_at_20, .by_hand = at_20_by_hand, .picture = METHOD_SECOND + 1,
@@ -199,7 +199,7 @@ static const hard_case cases[] = {
      /* As on the solid; for mixed without the block's top, 0.12 m^2. Second depth: half of 5.26 m^2. */
      .methods = {[METHOD_CONSTANT] = SHADOW(23, 27), [METHOD_MIDPOINT] = SHADOW(0, 2), [METHOD_DUAL] = SHADOW(23, 27),
                  [METHOD_SECOND] = SHADOW(28, 35), [METHOD_MIXED] = SHADOW(22, 26)}},
-    {.name = "sheet_2_degrees", .group = GROUP, .source = "", .title = "2 degrees, sheet",
+    {.name = "sheet_2_degrees", .group = GROUP, .flags = LONG, .source = "", .title = "2 degrees, sheet",
      .expected = "constant, dual 27.6 %, mixed 25.5 %, second depth 30 %; auto, beyond 8 texels from a centre, 12 %",
      .advice = "8 texels serve down to 3.6 degrees.", .build = build_sheet_at_2, .by_hand = at_2_by_hand,
      .methods = {[METHOD_CONSTANT] = SHADOW(26, 29), [METHOD_MIDPOINT] = SHADOW(1, 2.5), [METHOD_DUAL] = SHADOW(26, 29),

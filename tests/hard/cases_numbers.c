@@ -461,9 +461,9 @@ static void run_limits(hard_row *row)
 #define GROUP "Numbers"
 
 static const hard_case cases[] = {
-    {.name = "spot_100", .group = GROUP, .source = "", .title = "spot light 16 m away, near : far = 1 : 100",
+    {.name = "spot_100", .group = GROUP, .flags = LONG, .source = "", .title = "spot light 16 m away, near : far = 1 : 100",
      .expected = "none errs", .advice = "As it should be.", .build = build_spot_100, .by_hand = far_spot_by_hand},
-    {.name = "spot_1000", .group = GROUP, .source = "", .title = "1 : 1000",
+    {.name = "spot_1000", .group = GROUP, .flags = LONG, .source = "", .title = "1 : 1000",
      .expected = "constant: no shadow, 9.8 %: 2 texels at the near end are 3.7 m at the far end; the others none",
      .advice = "A bias in texels is converted at sqrt(near far): for spot lights give it in metres, or take second depth.",
      .build = build_spot_1000, .by_hand = far_spot_by_hand, .picture = METHOD_CONSTANT + 1,
@@ -483,12 +483,12 @@ static const hard_case cases[] = {
       * depth: half a texel behind the foot's edges, as of the turned block: 0.15 m x 0.027 m. */
      .methods = {[METHOD_CONSTANT] = LIGHT(0.2, 0.9), [METHOD_SECOND] = LIGHT(0, 0.05), [METHOD_MIXED] = LIGHT(0, 0.05),
                  [METHOD_AUTO] = LIGHT(0, 0.05)}},
-    {.name = "distant_spot", .group = GROUP, .source = "", .title = "spot light at 2^27, 0.75 degree",
+    {.name = "distant_spot", .group = GROUP, .flags = LONG, .source = "", .title = "spot light at 2^27, 0.75 degree",
      .expected = "as under a sun: none errs", .advice = "As it should be.",
      .build = build_distant_spot, .by_hand = distant_spot_by_hand},
     {.name = "world_limit", .group = GROUP, .source = "", .title = "the block, corners at +-2^24",
      .expected = "none errs", .advice = "As it should be.", .build = build_world_limit, .by_hand = block_by_hand},
-    {.name = "thousandth", .group = GROUP, .source = "", .title = "the block 10^-3 of that", .expected = "none errs",
+    {.name = "thousandth", .group = GROUP, .flags = LONG, .source = "", .title = "the block 10^-3 of that", .expected = "none errs",
      .advice = "A scene needs some 10,000 integers; the simulator scales it into the range by itself.",
      .build = build_thousandth, .by_hand = block_by_hand},
     {.name = "least_box", .group = GROUP, .source = "", .title = "the block in a light's box of 64 integers",

@@ -340,7 +340,7 @@ static void check_l_shape(hard_row *row)
 #define GROUP "The papers' figures"
 
 static const hard_case cases[] = {
-    {.name = "table_acne", .group = GROUP, .source = "W&M fig. 4", .title = "table on a floor, bias 1/4 texel",
+    {.name = "table_acne", .group = GROUP, .flags = LONG, .source = "W&M fig. 4", .title = "table on a floor, bias 1/4 texel",
      .expected = "constant, dual: acne on a third of what is lit; the others none",
      .advice = "A constant bias must exceed half a texel's slope: 0.5 cot e texels for light e above the surface.",
      .build = build_table_acne, .by_hand = table_by_hand, .picture = METHOD_CONSTANT + 1,
@@ -379,7 +379,7 @@ static const hard_case cases[] = {
      .build = build_silhouette, .by_hand = silhouette_by_hand, .picture = METHOD_MIDPOINT + 1,
      .methods = {[METHOD_MIDPOINT] = SHADOW(1.4, 2), [METHOD_SECOND] = SHADOW(0.7, 1), [METHOD_MIXED] = SHADOW(0.7, 1),
                  [METHOD_AUTO] = SHADOW(0.7, 1)}},
-    {.name = "near_receiver", .group = GROUP, .source = "W&E fig. 3", .title = "plate 4 texels over a floor, bias 8 texels",
+    {.name = "near_receiver", .group = GROUP, .flags = LONG, .source = "W&E fig. 3", .title = "plate 4 texels over a floor, bias 8 texels",
      .expected = "constant: no shadow at all (2.0 to 2.8 %); the others none",
      .advice = "As for the table's legs: a bias larger than the gap takes the shadow away.",
      .build = build_near_receiver, .by_hand = near_receiver_by_hand, .picture = METHOD_CONSTANT + 1,

@@ -1,22 +1,20 @@
 #!/bin/sh
 # Make the pictures of docs/ from the built-in scenes.
 #
-#     tests/report/pictures.sh GNOMON GNOMON32 PEER -o FOLDER
+#     tests/report/pictures.sh GNOMON GNOMON32 -o FOLDER
 #
-# GNOMON and GNOMON32 keep depth in 16 and 32 bits and write PNG. PEER makes the truth (tests/report/truth.sh). oiiotool crops,
-# enlarges without smoothing, and puts pictures side by side.
+# GNOMON and GNOMON32 keep depth in 16 and 32 bits and write PNG. oiiotool crops, enlarges without smoothing, and puts pictures side by side.
 set -eu
 
 here=$(dirname "$0")
 
-if [ $# -ne 5 ] || [ "$4" != -o ]; then
-    echo "usage: tests/report/pictures.sh GNOMON GNOMON32 PEER -o FOLDER" >&2
+if [ $# -ne 4 ] || [ "$3" != -o ]; then
+    echo "usage: tests/report/pictures.sh GNOMON GNOMON32 -o FOLDER" >&2
     exit 2
 fi
 gnomon=$1
 gnomon32=$2
-peer=$3
-folder=$5
+folder=$4
 command -v oiiotool >/dev/null || {
     echo "oiiotool is missing; the package openimageio-tools has it" >&2
     exit 2
@@ -32,7 +30,7 @@ mkdir -p "$folder"
 # Light 5.5 degrees above an open ground; a spot light whose near plane is a thousandth of a unit away.
 sed 's/^light.*/light directional direction 1 -0.1 0.3/' "$work/torus2.scene" >"$work/low.scene"
 sed 's/near 0.25 far 9/near 0.001 far 9/' "$work/room.scene" >"$work/near.scene"
-"$here/truth.sh" "$peer" "$work"/*.scene -o "$work"
+"$here/truth.sh" "$gnomon" "$work"/*.scene -o "$work"
 
 # shot PROGRAM OUT SCENE CROP OPTION...: OUT.png and OUT.difference.png, cropped.
 shot() {

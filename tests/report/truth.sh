@@ -1,18 +1,17 @@
 #!/bin/sh
 # Make truth masks: which pixel is truly lit, by exact ray casting.
 #
-#     tests/report/truth.sh PEER SCENE... -o FOLDER
+#     tests/report/truth.sh GNOMON SCENE... -o FOLDER
 #
-# PEER is a program that knows `PEER SCENE --dump MASK.pgm` and shares nothing with gnomon (peer_embree casts rays with
-# Embree). Masks are 0 shadowed, 254 lit, 255 no surface; FOLDER/NAME.pgm belongs to NAME.scene.
+# Masks are 0 shadowed, 254 lit, 255 no surface; FOLDER/NAME.pgm belongs to NAME.scene.
 set -eu
 
 usage() {
-    echo "usage: tests/report/truth.sh PEER SCENE... -o FOLDER" >&2
+    echo "usage: tests/report/truth.sh GNOMON SCENE... -o FOLDER" >&2
     exit 2
 }
 
-peer=${1:-}
+gnomon=${1:-}
 [ $# -ge 4 ] || usage
 shift
 scenes=
@@ -36,6 +35,6 @@ mkdir -p "$folder"
 echo "$scenes" | while read -r scene; do
     [ -n "$scene" ] || continue
     mask=$folder/$(basename "$scene" .scene).pgm
-    "$peer" "$scene" --frames 1 --dump "$mask.new" >/dev/null </dev/null
+    "$gnomon" truth "$scene" --mask "$mask.new" >/dev/null </dev/null
     mv "$mask.new" "$mask"
 done
