@@ -21,8 +21,8 @@ say = $(if $(filter 0,$(V)),@echo "  $(1)  $@")
 
 CORE := $(wildcard core/*.c)
 # No inner loops: compiled for size where flash counts.
-SETUP_SOURCES := $(patsubst %,core/gn_%.c,bias bins camera_pass clip lambert matrix plan scaled shading transform \
-	trigonometry view volumes_spot)
+SETUP_SOURCES := $(patsubst %,core/gn_%.c,bias bins camera_pass clip face lambert matrix nearness plan scaled shading \
+	silhouette transform trigonometry view volumes_spot wide)
 HOST := $(wildcard host/*.c)
 EMBEDDED_TARGETS :=
 HOSTED_TARGETS :=
@@ -56,7 +56,7 @@ endif
 # ---- objects -------------------------------------------------------------------------------------------------------
 
 # Everything is compiled anew when a flag changes, for instance because OpenImageIO was installed.
-ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS)
+ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(SETUP_SOURCES)
 $(BUILD)/flags: always
 	@mkdir -p $(@D)
 	@echo '$(ALL_FLAGS)' | cmp -s - $@ || echo '$(ALL_FLAGS)' >$@
@@ -146,7 +146,7 @@ $(BUILD)/golden/%.h: $(BUILD)/gnomon
 $(BUILD)/golden/footprint.h: $(BUILD)/gnomon port/footprint/scene.awk
 	$(call say,pack)
 	@mkdir -p $(@D)
-	$(quiet)awk -v folder=$(@D) -f port/footprint/scene.awk && $< pack $(@D)/footprint.scene -o $@ >/dev/null
+	$(quiet)awk -v folder=$(@D) -f port/footprint/scene.awk && $< pack $(@D)/footprint.scene --edges -o $@ >/dev/null
 
 # -fcallgraph-info: what a function needs of the stack, and what it calls.
 $(foreach t,$(EMBEDDED_TARGETS),$(foreach d,$(DEPTHS),\
@@ -233,12 +233,14 @@ profile: $(BENCH_TARGETS:%=$(BUILD)/bench/%.profile) ## say what each function t
 	@awk 'FNR == 1 { n = 0 } $$1 == "case" { name[n++] = $$2 } $$1 == "region" { print FILENAME, name[$$2], $$4 } \
 		$$1 == "function" && $$2 > 100 { printf "%12d %s\n", $$2, $$3 }' $^
 
-$(BUILD)/objects/cortex-m4-16/port/footprint/footprint.o: $(BUILD)/golden/footprint.h
-$(BUILD)/cortex-m4-16/footprint/footprint.elf: cortex-m4_LINK = $(call arm_link,port/footprint/board.ld)
-$(BUILD)/cortex-m4-16/footprint/footprint.txt: $(BUILD)/cortex-m4-16/footprint/footprint.elf
+# One job by a map and by shadow volumes.
+FOOTPRINTS := footprint footprint_volumes
+$(FOOTPRINTS:%=$(BUILD)/objects/cortex-m4-16/port/footprint/%.o): $(BUILD)/golden/footprint.h
+$(BUILD)/cortex-m4-16/footprint/%.elf: cortex-m4_LINK = $(call arm_link,port/footprint/board.ld)
+$(BUILD)/cortex-m4-16/footprint/%.txt: $(BUILD)/cortex-m4-16/footprint/%.elf
 	$(call run_firmware,$(cortex-m4_RUN) -kernel)
 
-sizes: $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) $(BUILD)/cortex-m4-16/footprint/footprint.txt ## flash, RAM and stack of the core by target
+sizes: $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) $(FOOTPRINTS:%=$(BUILD)/cortex-m4-16/footprint/%.txt) ## flash, RAM and stack of the core by target
 	$(quiet)port/footprint/sizes.sh $(BUILD) $(EMBEDDED_DEPTHS)
 
 # ---- tests ---------------------------------------------------------------------------------------------------------
@@ -275,7 +277,7 @@ $(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),$(eval $(call test_rule
 
 TEST_INPUTS := all $(TEST_PROGRAMS) $(BUILD)/sanitized-16/gnomon $(TARGET_DEPTHS:%=$(BUILD)/hashes/%.txt) \
 	$(MINIMAL_DEPTHS:%=$(BUILD)/%/minimal_main.txt) $(BENCH_COUNTS) $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) \
-	$(BUILD)/cortex-m4-16/footprint/footprint.txt
+	$(FOOTPRINTS:%=$(BUILD)/cortex-m4-16/footprint/%.txt)
 
 test: ## install what is missing, build for host and targets, run everything, count what passed and failed
 	$(quiet)tests/setup.sh test

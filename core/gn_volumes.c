@@ -44,14 +44,18 @@ static int32_t find_edge(const gn_context *context, const gn_silhouette *s, int3
     uint32_t number = s->edge >> volumes->edge_bits, ends[2];
     const gn_object *object = &context->scene->objects[number];
     const gn_mesh_edge *edge = &object->mesh->edges[s->edge & (((uint32_t)1 << volumes->edge_bits) - 1)];
-    int32_t winding =
-        gn_edge_winding(object->mesh, edge, volumes->facings, context->objects[number].first_triangle, ends);
+    const gn_object_state *state = &context->objects[number];
+    int32_t winding = gn_edge_winding(object->mesh, edge, volumes->facings, state->first_triangle, ends);
     (void)gn_world_position(object, ends[0], world[0]);
     (void)gn_world_position(object, ends[1], world[1]);
-    own[0] = number << context->triangle_bits | edge->half[0] / 3;
-    own[1] = own[0];
-    if (edge->half[1] != GN_NO_HALF_EDGE)
-        own[1] = number << context->triangle_bits | (edge->half[1] & ~GN_SAME_DIRECTION) / 3;
+    uint32_t first = edge->half[0] / 3, second = (edge->half[1] & ~GN_SAME_DIRECTION) / 3;
+    second = edge->half[1] == GN_NO_HALF_EDGE ? first : second;
+    own[0] = number << context->triangle_bits | first;
+    own[1] = number << context->triangle_bits | second;
+    /* a neighbour that casts on its own has a side here, too: the two must find the same pixels */
+    if (gn_facing_of(volumes->facings, first + state->first_triangle) == GN_CROSSES_NEAR ||
+        gn_facing_of(volumes->facings, second + state->first_triangle) == GN_CROSSES_NEAR)
+        own[0] = own[1] = GN_NO_TRIANGLE;
     return winding;
 }
 

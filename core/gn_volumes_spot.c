@@ -79,7 +79,7 @@ static void draw_cut_volume(gn_volume_region *r, uint32_t number, uint32_t trian
     gn_face cap;
     gn_outline o;
     find_cut(&c, r->context, &r->context->scene->objects[number], triangle);
-    r->target.own[0] = r->target.own[1] = number << r->context->triangle_bits | triangle;
+    r->target.own[0] = r->target.own[1] = GN_NO_TRIANGLE;
     cap.count = 0;
     for (int32_t i = 0; i < c.count; i++)
         gn_add_corner(&cap, &c.corners[i].place, 0);

@@ -36,7 +36,8 @@ function pixel(t, view) {
     return less(t, view "-320", view "-160") / (320 * 240 - 160 * 120)
 }
 
-# What four more quads with two sides each add over half the columns; of caps, by volumes less by a map.
+# What four more quads with two sides each add over half the columns; quads with a cap and
+# a lid each, by volumes less by a map.
 function side_fragment(t, how,    wide, narrow) {
     wide = less(t, "side-wide-" how "-8", "side-wide-" how "-4")
     narrow = less(t, "side-narrow-" how "-8", "side-narrow-" how "-4")
@@ -69,7 +70,7 @@ function figure(t, row) {
     if (row == 19) return counted[t, "pins-map-160"] / (160 * 120)
     if (row == 20) return side_fragment(t, "before")
     if (row == 21) return side_fragment(t, "behind")
-    if (row == 22) return (quads_behind(t, "volumes") - quads_behind(t, "map")) / (4 * 160 * 240)
+    if (row == 22) return (quads_behind(t, "volumes") - quads_behind(t, "map")) / (4 * 2 * 160 * 240)
     # 352 more silhouette edges from the same grid of 128 triangles
     if (row == 23) return less(t, "sides-off-384", "sides-off-32") / 352
     if (row == 24) return less(t, "sides-within-384", "sides-within-32") / 352
@@ -108,7 +109,7 @@ END {
     label(19, "a map: the same")
     label(20, "volumes: side, a pixel compared, before it")
     label(21, "volumes: side, a pixel compared, behind it")
-    label(22, "volumes: cap, a pixel")
+    label(22, "volumes: cap or lid, a pixel")
     label(23, "volumes: silhouette edge, its rows found")
     label(24, "volumes: the same, and a side within the screen")
     label(25, "volumes: the same, and a side that leaves it")

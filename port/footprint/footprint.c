@@ -1,5 +1,6 @@
 /* How much memory a typical job takes: 1,000 triangles in flash, a map of 128 x 128, an image of 320 x 240, second
- * depth. Linked into a RAM of RAM_LIMIT bytes (board.ld), so that running at all proves that it fits. Prints
+ * depth; or shadow volumes, where footprint_volumes.c includes it. Linked into a RAM of RAM_LIMIT bytes (board.ld), so
+ * that running at all proves that it fits. Prints
  *
  *     ram plan N statics N stack N whole N      bytes
  */
@@ -7,6 +8,11 @@
 #include "gnomon.h"
 #include "port.h"
 #include "print.h"
+
+/* Known when compiled, so that only one method is linked. */
+#ifndef FOOTPRINT_SHADOW
+#define FOOTPRINT_SHADOW GN_SHADOW_MAP
+#endif
 
 enum { RAM_LIMIT = 96 * 1024, STACK = 4096, STATICS = 1024 };
 
@@ -32,19 +38,32 @@ static void write_bytes(const char *name, uint32_t bytes)
     write_decimal(bytes);
 }
 
+static gn_status light_pass(gn_context *context)
+{
+    return FOOTPRINT_SHADOW == GN_SHADOW_VOLUMES ? gn_volumes_light(context, &footprint_light)
+                                                 : gn_light_pass(context, &footprint_light);
+}
+
+static gn_status camera_pass(gn_context *context)
+{
+    return FOOTPRINT_SHADOW == GN_SHADOW_VOLUMES ? gn_volumes_pass(context, &footprint_camera, count_mask, 0)
+                                                 : gn_camera_pass(context, &footprint_camera, count_mask, 0);
+}
+
 int main(void)
 {
     gn_settings settings = gn_default_settings(320, 240, 128);
     gn_plan plan;
     gn_context *context;
     settings.mask = 1;
+    settings.shadow = FOOTPRINT_SHADOW;
     if (gn_make_plan(&plan, &footprint_scene, &settings) != GN_OK || plan.triangles != 1000)
         return 1;
     if (gn_init(&context, &footprint_scene, &settings, memory, sizeof memory) != GN_OK)
         return 2;
-    if (gn_light_pass(context, &footprint_light) != GN_OK)
+    if (light_pass(context) != GN_OK)
         return 3;
-    if (gn_camera_pass(context, &footprint_camera, count_mask, 0) != GN_OK || lit == 0 || shadowed == 0)
+    if (camera_pass(context) != GN_OK || lit == 0 || shadowed == 0)
         return 4;
 
     uint32_t statics = (uint32_t)((uintptr_t)bss_end - (uintptr_t)data_start - sizeof memory);

@@ -6,6 +6,7 @@ set -u
 build=$1
 shift
 flash_limit=$((24 * 1024))
+volumes_flash_limit=$((32 * 1024))
 ram_limit=$((96 * 1024))
 failed=0
 
@@ -28,32 +29,43 @@ done
 echo "Flash: the whole archive, every method; what a program does not use is not linked."
 echo
 
-# The functions and tables of the archive that the job's program holds.
-{
-    arm-none-eabi-nm --defined-only "$build/cortex-m4-16/libgnomon.a" | awk 'NF == 3 { print "core", $3 }'
-    arm-none-eabi-nm -S "$build/cortex-m4-16/footprint/footprint.elf" | awk 'NF == 4 { print "linked", $4, $2 }'
-} | awk -v limit=$flash_limit '
-    function hexadecimal(text,    value, i) {
-        for (i = 1; i <= length(text); i++)
-            value = 16 * value + index("0123456789abcdef", substr(text, i, 1)) - 1
-        return value
-    }
-    $1 == "core" { core[$2] = 1 }
-    $1 == "linked" && $2 in core { bytes += hexadecimal($3) }
-    END {
-        printf "Flash of the core in the job below, Cortex-M4: %d bytes (at most %d)\n", bytes, limit
-        exit bytes > limit
-    }' || failed=1
+# flash_of PROGRAM LIMIT: the functions and tables of the archive that a program holds.
+flash_of() {
+    {
+        arm-none-eabi-nm --defined-only "$build/cortex-m4-16/libgnomon.a" | awk 'NF == 3 { print "core", $3 }'
+        arm-none-eabi-nm -S "$build/cortex-m4-16/footprint/$1.elf" | awk 'NF == 4 { print "linked", $4, $2 }'
+    } | awk -v limit="$2" '
+        function hexadecimal(text,    value, i) {
+            for (i = 1; i <= length(text); i++)
+                value = 16 * value + index("0123456789abcdef", substr(text, i, 1)) - 1
+            return value
+        }
+        $1 == "core" { core[$2] = 1 }
+        $1 == "linked" && $2 in core { bytes += hexadecimal($3) }
+        END {
+            printf "Flash of the core %d bytes (at most %d)\n", bytes, limit
+            exit bytes > limit
+        }'
+}
 
-awk -v limit=$ram_limit '
-    $1 == "ram" {
-        printf "RAM, 1,000 triangles in flash, map 128 x 128, image 320 x 240, second depth, 16 bits, Cortex-M4:\n"
-        printf "context %d + other statics %d + stack %d = %d bytes (at most %d)\n", $3, $5, $7, $9, limit
-        fits = $9 <= limit
-    }
-    END {
-        if (!fits)
-            print "the footprint program failed or needs more"
-        exit !fits
-    }' "$build/cortex-m4-16/footprint/footprint.txt" || failed=1
+# ram_of PROGRAM
+ram_of() {
+    awk -v limit=$ram_limit '
+        $1 == "ram" {
+            printf "RAM: context %d + other statics %d + stack %d = %d bytes (at most %d)\n", $3, $5, $7, $9, limit
+            fits = $9 <= limit
+        }
+        END {
+            if (!fits)
+                print "the footprint program failed or needs more"
+            exit !fits
+        }' "$build/cortex-m4-16/footprint/$1.txt"
+}
+
+echo "Cortex-M4, 1,000 triangles in flash, image 320 x 240, map 128 x 128, second depth, 16 bits:"
+flash_of footprint $flash_limit || failed=1
+ram_of footprint || failed=1
+echo "The same by shadow volumes:"
+flash_of footprint_volumes $volumes_flash_limit || failed=1
+ram_of footprint_volumes || failed=1
 exit $failed

@@ -215,8 +215,8 @@ void build_camera_orthographic(builder *b, const double eye[3], const double tar
     make_orthographic(b, half_height);
 }
 
-void build_camera_perspective(builder *b, const double eye[3], const double target[3], double degrees, double near_depth,
-                              double far_depth)
+void build_camera_perspective(builder *b, const double eye[3], const double target[3], double degrees,
+                              double near_depth, double far_depth)
 {
     const double up[3] = {0, 1, 0};
     look(b, eye, target, up);
@@ -256,8 +256,8 @@ void build_spot(builder *b, const double position[3], const double target[3], do
     to_world(b, position, p);
     to_world(b, target, t);
     b->fit_light = 0;
-    keep_status(b, gn_spot_light(&b->light, p, t, 0, to_angle(degrees), length_of(b, near_depth),
-                                 length_of(b, far_depth)));
+    keep_status(
+        b, gn_spot_light(&b->light, p, t, 0, to_angle(degrees), length_of(b, near_depth), length_of(b, far_depth)));
 }
 
 /* ---- integers -------------------------------------------------------------------------------------------------- */

@@ -58,7 +58,8 @@ void build_sphere(builder *b, double x, double y, double z, double radius, int b
 /* A level rectangle of two triangles, counter-clockwise from above. */
 void build_level(builder *b, double x0, double x1, double y, double z0, double z1);
 
-/* Turn the latest mesh's vertices from number `first` on about an axis (0 x, 1 y, 2 z) through a point, right-handed. */
+/* Turn the latest mesh's vertices from number `first` on about an axis (0 x, 1 y, 2 z) through a point, right-handed.
+ */
 void build_turn(builder *b, size_t first, int axis, double degrees, double x, double y, double z);
 size_t build_vertex_count(const builder *b); /* of the latest mesh */
 
@@ -68,8 +69,8 @@ void build_invert(builder *b);
 /* An orthographic camera straight above (x, z), up on the image = -z; half_height in metres. */
 void build_camera_above(builder *b, double x, double z, double half_height);
 void build_camera_orthographic(builder *b, const double eye[3], const double target[3], double half_height);
-void build_camera_perspective(builder *b, const double eye[3], const double target[3], double degrees, double near_depth,
-                              double far_depth);
+void build_camera_perspective(builder *b, const double eye[3], const double target[3], double degrees,
+                              double near_depth, double far_depth);
 
 /* A directional light. Its box: width x height metres about (u, v), depth from z on, along the light's own axes. */
 void build_sun(builder *b, double x, double y, double z);

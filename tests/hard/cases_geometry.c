@@ -1,5 +1,5 @@
-/* Meshes that make trouble: slivers, needles, T-junctions, faces in one plane, solids that touch, cross, hold one another
- * or are inside out, sheets before solids.
+/* Meshes that make trouble: slivers, needles, T-junctions, faces in one plane, solids that touch, cross, hold one
+ * another or are inside out, sheets before solids.
  *
  * Unless said otherwise seen from above: 48 pixels a metre, 10/3 m x 5/2 m = 8.33 m^2; t = 1/16 m is 3 pixels. */
 #include "hard.h"
@@ -34,9 +34,9 @@ static void look_from_above(builder *b, double sun)
 
 /* ---- slivers, needles, T-junctions ----------------------------------------------------------------------------- */
 
-/* A slab whose top is a fan of 300 triangles from one corner: most are narrower than a pixel for most of their length, and
- * those near the corner have less area than one in 2^-10 of its texels. A depth inside a triangle lies between those of its
- * corners, and a corner snapped by 1/512 texel is off by that much: slivers are as good as the whole. */
+/* A slab whose top is a fan of 300 triangles from one corner: most are narrower than a pixel for most of their length,
+ * and those near the corner have less area than one in 2^-10 of its texels. A depth inside a triangle lies between
+ * those of its corners, and a corner snapped by 1/512 texel is off by that much: slivers are as good as the whole. */
 static void build_fan(builder *b)
 {
     enum { PIECES = 150 };
@@ -113,8 +113,8 @@ static int needle_by_hand(const double p[3])
 }
 
 /* A turned sheet in two halves; their common edge is one edge on one side and 16 on the other. A corner on the edge is
- * rounded off it by less than 1/256 texel, so that a gap is met by a centre once in some 256 texels of edge: of 24 texels,
- * 0.1; one texel is 0.05 % of the image. The camera's gaps likewise. */
+ * rounded off it by less than 1/256 texel, so that a gap is met by a centre once in some 256 texels of edge: of 24
+ * texels, 0.1; one texel is 0.05 % of the image. The camera's gaps likewise. */
 static void build_t_junctions(builder *b)
 {
     enum { PIECES = 16 };
@@ -197,12 +197,13 @@ static int aligned_block_by_hand(const double p[3])
     return p[1] > 0.3 ? BY_HAND_LIT : lit_unless(in(p[0], -0.8, 0.2) && fabs(p[2]) < 0.3);
 }
 
-/* A square bar on its edge, along z at x = 0.13, map 16, e = 60. On the map v = x sin 60, distances from the contact are a
- * for a point of the floor and c for its texel's centre, positive away from the light. The floor has depth a cot 60 = 0.577
- * a, the right underside -0.268 c, the left one, seen through the bar, -3.73 |c|. The contact stands at 0.450 t of a texel:
- * c = 0.05 t, and points before the contact (a < 0) are nearer than what is stored where 0.577 |a| > 0.268 c: all but 0.006
- * of the 0.1126 from the texel's border on: 0.123 m of the floor, 1.6 m wide, in the shadow of the overhang that begins
- * 0.169 m before the contact. Seen from 25 degrees: 0.0832 m^2, 192 pixels; the picture has about 14000 of surface. */
+/* A square bar on its edge, along z at x = 0.13, map 16, e = 60. On the map v = x sin 60, distances from the contact
+ * are a for a point of the floor and c for its texel's centre, positive away from the light. The floor has depth a cot
+ * 60 = 0.577 a, the right underside -0.268 c, the left one, seen through the bar, -3.73 |c|. The contact stands at
+ * 0.450 t of a texel: c = 0.05 t, and points before the contact (a < 0) are nearer than what is stored where 0.577 |a|
+ * > 0.268 c: all but 0.006 of the 0.1126 from the texel's border on: 0.123 m of the floor, 1.6 m wide, in the shadow of
+ * the overhang that begins 0.169 m before the contact. Seen from 25 degrees: 0.0832 m^2, 192 pixels; the picture has
+ * about 14000 of surface. */
 static void build_bar(builder *b)
 {
     const double bar[4][2] = {{0.13, 0}, {0.53, 0.4}, {0.13, 0.8}, {-0.27, 0.4}};
@@ -225,18 +226,16 @@ static int bar_by_hand(const double p[3])
 
 /* ---- solids that cross, hold one another, or are inside out ---------------------------------------------------- */
 
-/* A wedge comes out of the floor at x = 0 and rises by 0.0875 (5 degrees) to 0.07 at x = 0.8; e = 45. On the map, from the
- * crossing: the wedge has depth 0.839 v, the floor v. Texels' centres at f = 0.5 t, 1.5 t, ... either side; false shadow
- * where a point a is behind what its texel holds:
+/* A wedge comes out of the floor at x = 0 and rises by 0.0875 (5 degrees) to 0.07 at x = 0.8; e = 45. On the map, from
+ * the crossing: the wedge has depth 0.839 v, the floor v. Texels' centres at f = 0.5 t, 1.5 t, ... either side; false
+ * shadow where a point a is behind what its texel holds:
  *
- *     mixed holds the second front: a > f / 0.839: 0.41 + 0.21 + 0.02 t of the wedge; a < 0.839 f: 0.42 + 0.26 + 0.1 t of the
- *     floor: 0.052 m + 0.069 m, 1.6 m wide: 2.3 %
- *     midpoint, dual hold the middle of the fronts, 0.92 v: a > 1.096 f: 1.3 t of the wedge; a < 0.92 f: 1.56 t of the floor:
- *     0.106 m + 0.138 m: 4.7 %
+ *     mixed holds the second front: a > f / 0.839: 0.41 + 0.21 + 0.02 t of the wedge; a < 0.839 f: 0.42 + 0.26 + 0.1 t
+ * of the floor: 0.052 m + 0.069 m, 1.6 m wide: 2.3 % midpoint, dual hold the middle of the fronts, 0.92 v: a > 1.096
+ * f: 1.3 t of the wedge; a < 0.92 f: 1.56 t of the floor: 0.106 m + 0.138 m: 4.7 %
  *
- * give or take the few pixels that a texel has. Constant: the shadow behind the wedge is 0.07 m long and at most 0.1 m, 1.6
- * t, behind its top: lost, 1.3 % (3.4 pixels, 4 where the
- * centres fall so: 1.6 %), less what is the texel's. */
+ * give or take the few pixels that a texel has. Constant: the shadow behind the wedge is 0.07 m long and at most 0.1
+ * m, 1.6 t, behind its top: lost, 1.3 % (3.4 pixels, 4 where the centres fall so: 1.6 %), less what is the texel's. */
 static void build_crossing(builder *b)
 {
     const double wedge[4][2] = {{-0.8, -0.3}, {0.8, -0.3}, {0.8, 0.07}, {-0.8, -0.07}};
@@ -315,96 +314,181 @@ static int poster_by_hand(const double p[3])
 #define GROUP "Meshes"
 
 static const hard_case cases[] = {
-    {.name = "fan", .group = GROUP, .flags = LONG, .source = "", .title = "floor of 300 slivers, down to a thousandth of a pixel",
-     .expected = "as with two triangles: none errs", .advice = "Slivers cost time only, unless they are edge-on as well.",
-     .build = build_fan, .by_hand = fan_by_hand},
-    {.name = "fine_sphere", .group = GROUP, .flags = LONG, .source = "", .title = "sphere, facets of half a texel",
+    {.name = "fan",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "floor of 300 slivers, down to a thousandth of a pixel",
+     .expected = "as with two triangles: none errs",
+     .advice = "Slivers cost time only, unless they are edge-on as well.",
+     .build = build_fan,
+     .by_hand = fan_by_hand},
+    {.name = "fine_sphere",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "sphere, facets of half a texel",
      .expected = "none errs but along the terminator",
      .advice = "Facets need not be larger than texels.",
      .build = build_fine_sphere,
      /* A facet seen by the light at an angle below atan(1 / 4) spans more than 2 t in half a texel; those are within 14
-      * degrees of the terminator, of which the camera above, 45 degrees from the light, sees half a ring: 0.5 m x pi x 0.24 x
-      * 0.5 m x sin 45 / 2 = 0.066 m^2 of the sphere: 0.8 %. */
-     .methods = {[METHOD_CONSTANT] = {0, 0.8, 0, 0.8, 0}, [METHOD_MIDPOINT] = {0, 0.8, 0, 0.8, 0},
-                 [METHOD_DUAL] = {0, 0.8, 0, 0.8, 0}, [METHOD_SECOND] = {0, 0.8, 0, 0.8, 0},
-                 [METHOD_MIXED] = {0, 0.8, 0, 0.8, 0}, [METHOD_AUTO] = {0, 0.8, 0, 0.8, 0}}},
-    {.name = "needle", .group = GROUP, .source = "", .title = "needle across the map, up to 0.8 texels wide",
+      * degrees of the terminator, of which the camera above, 45 degrees from the light, sees half a ring: 0.5 m x pi x
+      * 0.24 x 0.5 m x sin 45 / 2 = 0.066 m^2 of the sphere: 0.8 %. */
+     .methods = {[METHOD_CONSTANT] = {0, 0.8, 0, 0.8, 0},
+                 [METHOD_MIDPOINT] = {0, 0.8, 0, 0.8, 0},
+                 [METHOD_DUAL] = {0, 0.8, 0, 0.8, 0},
+                 [METHOD_SECOND] = {0, 0.8, 0, 0.8, 0},
+                 [METHOD_MIXED] = {0, 0.8, 0, 0.8, 0},
+                 [METHOD_AUTO] = {0, 0.8, 0, 0.8, 0}}},
+    {.name = "needle",
+     .group = GROUP,
+     .title = "needle across the map, up to 0.8 texels wide",
      .expected = "the shadow breaks up: the texel's. Second depth: half of the needle's lit texels, at most 0.6 %",
      .advice = "What is thinner than a texel casts a broken shadow: a larger map, or `volumes`.",
-     .build = build_needle, .by_hand = needle_by_hand, .picture = METHOD_MIXED + 1,
+     .build = build_needle,
+     .by_hand = needle_by_hand,
+     .picture = METHOD_MIXED + 1,
      .methods = {[METHOD_SECOND] = SHADOW(0, 0.6)}},
-    {.name = "t_junctions", .group = GROUP, .source = "", .title = "sheet with 15 T-junctions on a slanted edge",
+    {.name = "t_junctions",
+     .group = GROUP,
+     .title = "sheet with 15 T-junctions on a slanted edge",
      .expected = "at most a texel leaks. Second depth: half of the sheet",
      .advice = "Harmless at this size; weld them where a leak must not be.",
      .build = build_t_junctions,
      /* The sheet: 0.7 x 1.4 + 0.7 x 1.4 / 2 = 1.47 m^2, 17.6 %. */
-     .methods = {[METHOD_CONSTANT] = {0, 0.06, 0, 0.06, 0}, [METHOD_MIDPOINT] = {0, 0.06, 0, 0.06, 0},
-                 [METHOD_DUAL] = {0, 0.06, 0, 0.06, 0}, [METHOD_SECOND] = {7.5, 10, 0, 0.06, 0},
-                 [METHOD_MIXED] = {0, 0.06, 0, 0.06, 0}, [METHOD_AUTO] = {0, 0.06, 0, 0.06, 0}}},
-    {.name = "coplanar_sheets", .group = GROUP, .source = "", .title = "two sheets in one plane, overlapping",
-     .expected = "all that uses the second surface: half of the overlap's texels are dark, 7.5 %; second depth half of all, 46 %",
+     .methods = {[METHOD_CONSTANT] = {0, 0.06, 0, 0.06, 0},
+                 [METHOD_MIDPOINT] = {0, 0.06, 0, 0.06, 0},
+                 [METHOD_DUAL] = {0, 0.06, 0, 0.06, 0},
+                 [METHOD_SECOND] = {7.5, 10, 0, 0.06, 0},
+                 [METHOD_MIXED] = {0, 0.06, 0, 0.06, 0},
+                 [METHOD_AUTO] = {0, 0.06, 0, 0.06, 0}}},
+    {.name = "coplanar_sheets",
+     .group = GROUP,
+     .title = "two sheets in one plane, overlapping",
+     .expected = "all that uses the second surface: half of the overlap's texels are dark, 7.5 %; second depth half of "
+                 "all, 46 %",
      .advice = "Remove doubled faces; else only `constant` (and `volumes`) serve.",
-     .build = build_coplanar_sheets, .by_hand = coplanar_by_hand, .flags = COUNT_TIES | LONG, .picture = METHOD_MIXED + 1,
-     /* The overlap, v from -0.15 to 0.15, holds the centres of four rows of texels, each six columns of pixels, of which the
-      * three behind the centre are dark, as no gap leaves no bias: 12 of 160 columns. */
-     .methods = {[METHOD_MIDPOINT] = SHADOW(7, 8), [METHOD_DUAL] = SHADOW(7, 8), [METHOD_SECOND] = SHADOW(43, 49),
-                 [METHOD_MIXED] = SHADOW(7, 8), [METHOD_AUTO] = SHADOW(7, 8)}},
-    {.name = "coplanar_solids", .group = GROUP, .source = "", .title = "two solids, tops in one plane, overlapping",
+     .build = build_coplanar_sheets,
+     .by_hand = coplanar_by_hand,
+     .flags = COUNT_TIES | LONG,
+     .picture = METHOD_MIXED + 1,
+     /* The overlap, v from -0.15 to 0.15, holds the centres of four rows of texels, each six columns of pixels, of
+      * which the three behind the centre are dark, as no gap leaves no bias: 12 of 160 columns. */
+     .methods = {[METHOD_MIDPOINT] = SHADOW(7, 8),
+                 [METHOD_DUAL] = SHADOW(7, 8),
+                 [METHOD_SECOND] = SHADOW(43, 49),
+                 [METHOD_MIXED] = SHADOW(7, 8),
+                 [METHOD_AUTO] = SHADOW(7, 8)}},
+    {.name = "coplanar_solids",
+     .group = GROUP,
+     .title = "two solids, tops in one plane, overlapping",
      .expected = "midpoint, dual, mixed: half of the overlap's texels, 7.5 to 9.4 %; second depth, auto none",
      .advice = "Second depth looks at back faces only: `auto` takes it where all is closed.",
-     .build = build_coplanar_solids, .by_hand = coplanar_by_hand, .flags = COUNT_TIES,
+     .build = build_coplanar_solids,
+     .by_hand = coplanar_by_hand,
+     .flags = COUNT_TIES,
      /* As the sheets; and one row more, whose centre sees one solid's end just behind the other's top. */
-     .methods = {[METHOD_MIDPOINT] = SHADOW(7.4, 9.5), [METHOD_DUAL] = SHADOW(7.4, 9.5), [METHOD_MIXED] = SHADOW(7.4, 9.5)}},
-    {.name = "aligned_block", .group = GROUP, .flags = LONG, .source = "", .title = "block on a floor, along the light, map 32",
-     .expected = "no leak along the contact, by any method", .advice = "As it should be.",
-     .build = build_aligned_block, .by_hand = aligned_block_by_hand},
-    {.name = "turned_block", .group = GROUP, .source = "", .title = "the same turned by 30 degrees",
+     .methods =
+         {[METHOD_MIDPOINT] = SHADOW(7.4, 9.5), [METHOD_DUAL] = SHADOW(7.4, 9.5), [METHOD_MIXED] = SHADOW(7.4, 9.5)}},
+    {.name = "aligned_block",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "block on a floor, along the light, map 32",
+     .expected = "no leak along the contact, by any method",
+     .advice = "As it should be.",
+     .build = build_aligned_block,
+     .by_hand = aligned_block_by_hand},
+    {.name = "turned_block",
+     .group = GROUP,
+     .title = "the same turned by 30 degrees",
      .expected = "second depth, mixed, auto: light within half a texel behind the contact, 1.3 % at most",
      .advice = "Let solids sink into what they stand on; dual does not leak here.",
-     .build = build_turned_block, .picture = METHOD_SECOND + 1,
-     /* A centre on the block's foot holds the foot's own depth, which is greater than that of points nearer to the light:
-      * two edges of 0.6 m, t / 2 sin 45 = 0.088 m wide: 0.106 m^2. At
-      * the upright edges beside the light the block is 2.31 w thick at a distance w from them: constant lights what lies
-      * behind less than 2 t, two triangles of 0.076 m x 0.177 m / 2, 0.16 %; fronts that fall by less than half a texel
-      * shadow themselves within 0.03 m (midpoint 0.06 m) of them on the top, 0.06 m deep: less than 0.1 %. */
-     .methods = {[METHOD_CONSTANT] = LIGHT(0, 0.2), [METHOD_MIDPOINT] = SHADOW(0, 0.1),
-                 [METHOD_SECOND] = {0, 0.1, 0.01, 1.3, 0}, [METHOD_MIXED] = {0, 0.1, 0.01, 1.3, 0},
+     .build = build_turned_block,
+     .picture = METHOD_SECOND + 1,
+     /* A centre on the block's foot holds the foot's own depth, which is greater than that of points nearer to the
+      * light: two edges of 0.6 m, t / 2 sin 45 = 0.088 m wide: 0.106 m^2. At the upright edges beside the light the
+      * block is 2.31 w thick at a distance w from them: constant lights what lies behind less than 2 t, two triangles
+      * of 0.076 m x 0.177 m / 2, 0.16 %; fronts that fall by less than half a texel shadow themselves within 0.03 m
+      * (midpoint 0.06 m) of them on the top, 0.06 m deep: less than 0.1 %. */
+     .methods = {[METHOD_CONSTANT] = LIGHT(0, 0.2),
+                 [METHOD_MIDPOINT] = SHADOW(0, 0.1),
+                 [METHOD_SECOND] = {0, 0.1, 0.01, 1.3, 0},
+                 [METHOD_MIXED] = {0, 0.1, 0.01, 1.3, 0},
                  [METHOD_AUTO] = {0, 0.1, 0.01, 1.3, 0}}},
-    {.name = "bar", .group = GROUP, .source = "", .title = "square bar on its edge, map 16",
+    {.name = "bar",
+     .group = GROUP,
+     .title = "square bar on its edge, map 16",
      .expected = "second depth, mixed, auto: 12 cm before the contact are lit, 1.4 %",
      .advice = "As above: under an overhang that ends in a contact.",
-     .build = build_bar, .by_hand = bar_by_hand, .picture = METHOD_SECOND + 1,
-     /* Constant, 2 t = 0.5: where the bar is less than that thick along the light: 0.052 m of the shadow's front edge. */
-     .methods = {[METHOD_CONSTANT] = LIGHT(0, 0.7), [METHOD_SECOND] = LIGHT(1, 1.7), [METHOD_MIXED] = LIGHT(1, 1.7),
+     .build = build_bar,
+     .by_hand = bar_by_hand,
+     .picture = METHOD_SECOND + 1,
+     /* Constant, 2 t = 0.5: where the bar is less than that thick along the light: 0.052 m of the shadow's front edge.
+      */
+     .methods = {[METHOD_CONSTANT] = LIGHT(0, 0.7),
+                 [METHOD_SECOND] = LIGHT(1, 1.7),
+                 [METHOD_MIXED] = LIGHT(1, 1.7),
                  [METHOD_AUTO] = LIGHT(1, 1.7)}},
-    {.name = "crossing", .group = GROUP, .source = "", .title = "wedge that rises out of the floor at 5 degrees",
-     .expected = "midpoint, dual: false shadow along the crossing, 4.7 %; mixed 2.3 %; second depth, auto none. Constant: the "
-                 "wedge's shadow is lost",
+    {.name = "crossing",
+     .group = GROUP,
+     .title = "wedge that rises out of the floor at 5 degrees",
+     .expected =
+         "midpoint, dual: false shadow along the crossing, 4.7 %; mixed 2.3 %; second depth, auto none. Constant: the "
+         "wedge's shadow is lost",
      .advice = "Where solids cross flatly, second depth alone (`auto` for closed scenes) is right.",
-     .build = build_crossing, .by_hand = crossing_by_hand, .picture = METHOD_DUAL + 1,
-     .methods = {[METHOD_CONSTANT] = LIGHT(0.2, 1.6), [METHOD_MIDPOINT] = SHADOW(3.5, 6), [METHOD_DUAL] = SHADOW(3.5, 6),
+     .build = build_crossing,
+     .by_hand = crossing_by_hand,
+     .picture = METHOD_DUAL + 1,
+     .methods = {[METHOD_CONSTANT] = LIGHT(0.2, 1.6),
+                 [METHOD_MIDPOINT] = SHADOW(3.5, 6),
+                 [METHOD_DUAL] = SHADOW(3.5, 6),
                  [METHOD_MIXED] = SHADOW(1.5, 3.2)}},
-    {.name = "nested", .group = GROUP, .flags = LONG, .source = "", .title = "solid inside a solid, walls 1.6 texels",
-     .expected = "none errs", .advice = "Walls need half a texel for second depth, a whole one for midpoint and dual.",
-     .build = build_nested, .by_hand = nested_by_hand},
-    {.name = "inside_out", .group = GROUP, .source = "", .title = "block marked closed, but inside out",
+    {.name = "nested",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "solid inside a solid, walls 1.6 texels",
+     .expected = "none errs",
+     .advice = "Walls need half a texel for second depth, a whole one for midpoint and dual.",
+     .build = build_nested,
+     .by_hand = nested_by_hand},
+    {.name = "inside_out",
+     .group = GROUP,
+     .title = "block marked closed, but inside out",
      .expected = "second depth, auto: half of its top is dark, 4.8 %; dual: thin leaks behind it",
      .advice = "`--verbose` names meshes that are inside out.",
-     .build = build_inside_out, .by_hand = inside_out_by_hand, .picture = METHOD_SECOND + 1,
+     .build = build_inside_out,
+     .by_hand = inside_out_by_hand,
+     .picture = METHOD_SECOND + 1,
      /* Midpoint: towards the back edge of the top, a quarter of a texel on the map, 0.03 m x 1 m: 0.4 %. */
-     .methods = {[METHOD_MIDPOINT] = SHADOW(0, 0.4), [METHOD_DUAL] = LIGHT(0, 0.3), [METHOD_SECOND] = SHADOW(4, 5.6),
+     .methods = {[METHOD_MIDPOINT] = SHADOW(0, 0.4),
+                 [METHOD_DUAL] = LIGHT(0, 0.3),
+                 [METHOD_SECOND] = SHADOW(4, 5.6),
                  [METHOD_AUTO] = SHADOW(4, 5.6)}},
-    {.name = "canopy", .group = GROUP, .flags = LONG, .source = "", .title = "open sheet over a solid floor",
-     .expected = "second depth: half of the sheet, 4.8 %; the others none", .advice = "`auto` takes mixed.",
-     .build = build_canopy, .by_hand = canopy_by_hand, .methods = {[METHOD_SECOND] = SHADOW(4, 5.6)}},
-    {.name = "poster", .group = GROUP, .flags = LONG, .source = "", .title = "open sheet 1/4 texel before a solid",
+    {.name = "canopy",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "open sheet over a solid floor",
+     .expected = "second depth: half of the sheet, 4.8 %; the others none",
+     .advice = "`auto` takes mixed.",
+     .build = build_canopy,
+     .by_hand = canopy_by_hand,
+     .methods = {[METHOD_SECOND] = SHADOW(4, 5.6)}},
+    {.name = "poster",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "open sheet 1/4 texel before a solid",
      .expected = "midpoint, dual, mixed, auto: a third of the sheet, 3.2 %; second depth half",
-     .advice = "Lay it on the solid (culled away by it), or farther off: half the gap must exceed half a texel's slope.",
-     .build = build_poster, .by_hand = poster_by_hand, .picture = METHOD_AUTO + 1,
-     /* Half of the gap along the light is t / 4; points more than 0.25 / root 3 = 0.144 t behind the centre are dark, 2 of 6
-      * pixels of a texel. Constant: its shadow, 0.027 m, is lost. */
-     .methods = {[METHOD_CONSTANT] = LIGHT(0, 0.4), [METHOD_MIDPOINT] = SHADOW(2.5, 4.9), [METHOD_DUAL] = SHADOW(2.5, 4.9),
-                 [METHOD_SECOND] = SHADOW(4, 5.6), [METHOD_MIXED] = SHADOW(2.5, 4.9), [METHOD_AUTO] = SHADOW(2.5, 4.9)}},
+     .advice =
+         "Lay it on the solid (culled away by it), or farther off: half the gap must exceed half a texel's slope.",
+     .build = build_poster,
+     .by_hand = poster_by_hand,
+     .picture = METHOD_AUTO + 1,
+     /* Half of the gap along the light is t / 4; points more than 0.25 / root 3 = 0.144 t behind the centre are dark, 2
+      * of 6 pixels of a texel. Constant: its shadow, 0.027 m, is lost. */
+     .methods = {[METHOD_CONSTANT] = LIGHT(0, 0.4),
+                 [METHOD_MIDPOINT] = SHADOW(2.5, 4.9),
+                 [METHOD_DUAL] = SHADOW(2.5, 4.9),
+                 [METHOD_SECOND] = SHADOW(4, 5.6),
+                 [METHOD_MIXED] = SHADOW(2.5, 4.9),
+                 [METHOD_AUTO] = SHADOW(2.5, 4.9)}},
 };
 
 const hard_list geometry_cases = {cases, COUNT(cases)};

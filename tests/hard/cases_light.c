@@ -123,9 +123,9 @@ static int edge_on_by_hand(const double p[3])
     return fabs(p[1]) > 0.001 ? BY_HAND_UNSAID : lit_unless(in(p[0], -0.9, -0.4) && fabs(p[2]) < 0.5);
 }
 
-/* A wall without thickness, e = 45, seen exactly edge-on. The floor d behind it is d root 2 along the light behind the wall:
- * a bias of 2 t lights it up to d = 2 t / root 2 = 0.088 m, over 1.2 m: 0.106 m^2, 1.27 %, of which the row of texels on the
- * wall's foot is the texel's. */
+/* A wall without thickness, e = 45, seen exactly edge-on. The floor d behind it is d root 2 along the light behind the
+ * wall: a bias of 2 t lights it up to d = 2 t / root 2 = 0.088 m, over 1.2 m: 0.106 m^2, 1.27 %, of which the row of
+ * texels on the wall's foot is the texel's. */
 static void build_edge_on_camera(builder *b)
 {
     const double corners[4][3] = {{0.2, 0, 0.6}, {0.2, 0, -0.6}, {0.2, 0.6, -0.6}, {0.2, 0.6, 0.6}};
@@ -146,77 +146,151 @@ static int edge_on_camera_by_hand(const double p[3])
 #define GROUP "Grazing light, edge-on triangles"
 
 static const hard_case cases[] = {
-    {.name = "grazing_20_degrees", .group = GROUP, .flags = LONG, .source = "", .title = "sun at 20 degrees, floor solid",
-     .expected = "half a texel spans 1.37 texels: 2 texels suffice", .advice = "As it should be.",
-     .build = build_solid_at_20, .by_hand = at_20_by_hand,
+    {.name = "grazing_20_degrees",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "sun at 20 degrees, floor solid",
+     .expected = "half a texel spans 1.37 texels: 2 texels suffice",
+     .advice = "As it should be.",
+     .build = build_solid_at_20,
+     .by_hand = at_20_by_hand,
      /* The block's top falls to its back edge; the midpoint there is within 0.25 t of the front. */
      .methods = {[METHOD_MIDPOINT] = SHADOW(0, 2)}},
-    {.name = "grazing_10_degrees", .group = GROUP, .flags = LONG, .source = "", .title = "10 degrees",
+    {.name = "grazing_10_degrees",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "10 degrees",
      .expected = "constant, dual: acne where 2.84 texels are spanned, 10.5 %; second depth, mixed, auto none",
      .advice = "c texels serve down to atan(1 / 2c) above the surface: 2 texels 14 degrees, 8 texels 3.6.",
-     .build = build_solid_at_10, .by_hand = at_10_by_hand,
+     .build = build_solid_at_10,
+     .by_hand = at_10_by_hand,
      /* Rows of 0.36 m, the last 0.053 m of each: 9 of them over 1.5 m, and one each before, behind and on the block. */
      .methods = {[METHOD_CONSTANT] = SHADOW(8, 13), [METHOD_MIDPOINT] = SHADOW(0, 2), [METHOD_DUAL] = SHADOW(8, 13)}},
-    {.name = "grazing_5_degrees", .group = GROUP, .source = "", .title = "5 degrees",
-     .expected = "constant, dual: 25 %; second depth, mixed, auto none", .advice = "As above.",
-     .build = build_solid_at_5, .by_hand = at_5_by_hand, .picture = METHOD_DUAL + 1,
+    {.name = "grazing_5_degrees",
+     .group = GROUP,
+     .title = "5 degrees",
+     .expected = "constant, dual: 25 %; second depth, mixed, auto none",
+     .advice = "As above.",
+     .build = build_solid_at_5,
+     .by_hand = at_5_by_hand,
+     .picture = METHOD_DUAL + 1,
      /* Rows of 0.717 m, the last 0.233 m of each: 5 over 1.5 m, one before the block, 0.12 m of its top: 2.1 m^2. */
      .methods = {[METHOD_CONSTANT] = SHADOW(23, 27), [METHOD_MIDPOINT] = SHADOW(0, 2), [METHOD_DUAL] = SHADOW(23, 27)}},
-    {.name = "grazing_2_degrees", .group = GROUP, .source = "", .title = "2 degrees",
-     .expected = "constant, dual: all that is 2 texels behind one of two centres, 27.6 %; midpoint: what is nearer to the slab's "
+    {.name = "grazing_2_degrees",
+     .group = GROUP,
+     .title = "2 degrees",
+     .expected = "constant, dual: all that is 2 texels behind one of two centres, 27.6 %; midpoint: what is nearer to "
+                 "the slab's "
                  "end than to a centre, 6 %; second depth, mixed, auto none",
-     .advice = "As above.", .build = build_solid_at_2, .by_hand = at_2_by_hand,
-     /* Centres at x = -0.895 and 0.895. Constant: dark from -0.77 to 0 and 1.02 to 1.67 over 1.5 m, and 0.175 m of the
-      * block's top, whose centre stands on its front: 2.3 m^2. Midpoint, the slab ends at 1.95: dark from 1.42 on, 0.37 m^2,
-      * and half of the block's top, 0.15 m^2. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(26, 29), [METHOD_MIDPOINT] = SHADOW(5, 7.5), [METHOD_DUAL] = SHADOW(26, 29)}},
-    {.name = "grazing_1_degree", .group = GROUP, .flags = LONG, .source = "", .title = "1 degree",
-     .expected = "the floor falls by more than a quarter of the light's range in a texel: such planes are drawn flat at their "
-                 "farthest corner, and lit. One row of texels: the block's shadow, x < 0, is lit, 13 %: the texel's",
-     .advice = "What is lower than a texel per length of the floor no map resolves: `volumes`, or a light box around what "
-               "matters.",
-     .build = build_solid_at_1, .by_hand = at_1_by_hand},
-    {.name = "grazing_tenth", .group = GROUP, .flags = LONG, .source = "", .title = "0.1 degree",
-     .expected = "the row x < 0 holds the slab's side: constant, dual dark, 33 %. Second depth: the block's shadow, x < 0, is "
-                 "lit, 13 %: the texel's",
      .advice = "As above.",
-     .build = build_solid_at_tenth, .by_hand = at_tenth_by_hand,
-     /* Dark from 2 t behind the slab's front, outside of what is seen, to 0, where lit: 2.5 m^2 beside the block and 0.27 m^2
-      * before it. The row x > 0 has its centre above the floor. */
+     .build = build_solid_at_2,
+     .by_hand = at_2_by_hand,
+     /* Centres at x = -0.895 and 0.895. Constant: dark from -0.77 to 0 and 1.02 to 1.67 over 1.5 m, and 0.175 m of the
+      * block's top, whose centre stands on its front: 2.3 m^2. Midpoint, the slab ends at 1.95: dark from 1.42 on, 0.37
+      * m^2, and half of the block's top, 0.15 m^2. */
+     .methods =
+         {[METHOD_CONSTANT] = SHADOW(26, 29), [METHOD_MIDPOINT] = SHADOW(5, 7.5), [METHOD_DUAL] = SHADOW(26, 29)}},
+    {.name = "grazing_1_degree",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "1 degree",
+     .expected =
+         "the floor falls by more than a quarter of the light's range in a texel: such planes are drawn flat at their "
+         "farthest corner, and lit. One row of texels: the block's shadow, x < 0, is lit, 13 %: the texel's",
+     .advice =
+         "What is lower than a texel per length of the floor no map resolves: `volumes`, or a light box around what "
+         "matters.",
+     .build = build_solid_at_1,
+     .by_hand = at_1_by_hand},
+    {.name = "grazing_tenth",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "0.1 degree",
+     .expected =
+         "the row x < 0 holds the slab's side: constant, dual dark, 33 %. Second depth: the block's shadow, x < 0, is "
+         "lit, 13 %: the texel's",
+     .advice = "As above.",
+     .build = build_solid_at_tenth,
+     .by_hand = at_tenth_by_hand,
+     /* Dark from 2 t behind the slab's front, outside of what is seen, to 0, where lit: 2.5 m^2 beside the block and
+      * 0.27 m^2 before it. The row x > 0 has its centre above the floor. */
      .methods = {[METHOD_CONSTANT] = SHADOW(30, 35), [METHOD_DUAL] = SHADOW(30, 35)}},
-    {.name = "grazing_hundredth", .group = GROUP, .source = "", .title = "0.01 degree", .expected = "the same",
-     .advice = "As above.", .build = build_solid_at_hundredth, .by_hand = at_hundredth_by_hand, .picture = METHOD_SECOND + 1,
+    {.name = "grazing_hundredth",
+     .group = GROUP,
+     .title = "0.01 degree",
+     .expected = "the same",
+     .advice = "As above.",
+     .build = build_solid_at_hundredth,
+     .by_hand = at_hundredth_by_hand,
+     .picture = METHOD_SECOND + 1,
      .methods = {[METHOD_CONSTANT] = SHADOW(30, 35), [METHOD_DUAL] = SHADOW(30, 35)}},
-    {.name = "sheet_20_degrees", .group = GROUP, .flags = LONG, .source = "", .title = "20 degrees, floor an open sheet",
+    {.name = "sheet_20_degrees",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "20 degrees, floor an open sheet",
      .expected = "second depth: half of the lit floor is dark, 42 %; the others none",
      .advice = "Second depth is not for open meshes; `auto` takes mixed.",
-     .build = build_sheet_at_20, .by_hand = at_20_by_hand, .picture = METHOD_SECOND + 1,
+     .build = build_sheet_at_20,
+     .by_hand = at_20_by_hand,
+     .picture = METHOD_SECOND + 1,
      .methods = {[METHOD_MIDPOINT] = SHADOW(0, 2), [METHOD_SECOND] = SHADOW(38, 45)}},
-    {.name = "sheet_5_degrees", .group = GROUP, .source = "", .title = "5 degrees, sheet",
+    {.name = "sheet_5_degrees",
+     .group = GROUP,
+     .title = "5 degrees, sheet",
      .expected = "constant, dual, mixed with 2 texels: a quarter; second depth a third; auto, 8 texels, none",
      .advice = "`auto` takes 8 texels where something is open.",
-     .build = build_sheet_at_5, .by_hand = at_5_by_hand, .picture = METHOD_MIXED + 1,
+     .build = build_sheet_at_5,
+     .by_hand = at_5_by_hand,
+     .picture = METHOD_MIXED + 1,
      /* As on the solid; for mixed without the block's top, 0.12 m^2. Second depth: half of 5.26 m^2. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(23, 27), [METHOD_MIDPOINT] = SHADOW(0, 2), [METHOD_DUAL] = SHADOW(23, 27),
-                 [METHOD_SECOND] = SHADOW(28, 35), [METHOD_MIXED] = SHADOW(22, 26)}},
-    {.name = "sheet_2_degrees", .group = GROUP, .flags = LONG, .source = "", .title = "2 degrees, sheet",
+     .methods = {[METHOD_CONSTANT] = SHADOW(23, 27),
+                 [METHOD_MIDPOINT] = SHADOW(0, 2),
+                 [METHOD_DUAL] = SHADOW(23, 27),
+                 [METHOD_SECOND] = SHADOW(28, 35),
+                 [METHOD_MIXED] = SHADOW(22, 26)}},
+    {.name = "sheet_2_degrees",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "2 degrees, sheet",
      .expected = "constant, dual 27.6 %, mixed 25.5 %, second depth 30 %; auto, beyond 8 texels from a centre, 12 %",
-     .advice = "8 texels serve down to 3.6 degrees.", .build = build_sheet_at_2, .by_hand = at_2_by_hand,
-     .methods = {[METHOD_CONSTANT] = SHADOW(26, 29), [METHOD_MIDPOINT] = SHADOW(1, 2.5), [METHOD_DUAL] = SHADOW(26, 29),
-                 [METHOD_SECOND] = SHADOW(28, 32), [METHOD_MIXED] = SHADOW(24, 27), [METHOD_AUTO] = SHADOW(11, 13)}},
-    {.name = "sheet_hundredth", .group = GROUP, .source = "", .title = "0.01 degree, sheet",
+     .advice = "8 texels serve down to 3.6 degrees.",
+     .build = build_sheet_at_2,
+     .by_hand = at_2_by_hand,
+     .methods = {[METHOD_CONSTANT] = SHADOW(26, 29),
+                 [METHOD_MIDPOINT] = SHADOW(1, 2.5),
+                 [METHOD_DUAL] = SHADOW(26, 29),
+                 [METHOD_SECOND] = SHADOW(28, 32),
+                 [METHOD_MIXED] = SHADOW(24, 27),
+                 [METHOD_AUTO] = SHADOW(11, 13)}},
+    {.name = "sheet_hundredth",
+     .group = GROUP,
+     .title = "0.01 degree, sheet",
      .expected = "no row of texels meets the sheet: all is lit, also the shadow for x < 0, 13 %: the texel's",
-     .advice = "As for solids.", .build = build_sheet_at_hundredth, .by_hand = at_hundredth_by_hand},
-    {.name = "edge_on", .group = GROUP, .source = "", .title = "wall exactly along the light",
-     .expected = "no shadow but the plate's, none of the methods errs", .advice = "As it should be: shadowed, as N.L = 0.",
-     .build = build_edge_on, .by_hand = edge_on_by_hand, .picture = METHOD_AUTO + 1},
-    {.name = "almost_edge_on", .group = GROUP, .source = "", .title = "wall 0.014 degree from that, lit side",
-     .expected = "the wall is lit: it lies between two columns of centres", .advice = "As it should be.",
-     .build = build_almost_edge_on, .by_hand = edge_on_by_hand},
-    {.name = "edge_on_camera", .group = GROUP, .source = "", .title = "wall of no thickness, seen edge-on by the camera",
+     .advice = "As for solids.",
+     .build = build_sheet_at_hundredth,
+     .by_hand = at_hundredth_by_hand},
+    {.name = "edge_on",
+     .group = GROUP,
+     .title = "wall exactly along the light",
+     .expected = "no shadow but the plate's, none of the methods errs",
+     .advice = "As it should be: shadowed, as N.L = 0.",
+     .build = build_edge_on,
+     .by_hand = edge_on_by_hand,
+     .picture = METHOD_AUTO + 1},
+    {.name = "almost_edge_on",
+     .group = GROUP,
+     .title = "wall 0.014 degree from that, lit side",
+     .expected = "the wall is lit: it lies between two columns of centres",
+     .advice = "As it should be.",
+     .build = build_almost_edge_on,
+     .by_hand = edge_on_by_hand},
+    {.name = "edge_on_camera",
+     .group = GROUP,
+     .title = "wall of no thickness, seen edge-on by the camera",
      .expected = "no pixel of the wall, but its shadow; constant: 2 texels of the shadow's foot are lit, 1.3 %",
      .advice = "A bias takes its own length from the foot of every shadow of a sheet.",
-     .build = build_edge_on_camera, .by_hand = edge_on_camera_by_hand,
+     .build = build_edge_on_camera,
+     .by_hand = edge_on_camera_by_hand,
      .methods = {[METHOD_CONSTANT] = LIGHT(0.5, 1.4)}},
 };
 

@@ -1,7 +1,8 @@
-/* Ranges and number formats: near and far planes, both ends of coordinates, scales, places far from the origin, triangles
- * through the planes, eyes and lights inside solids.
+/* Ranges and number formats: near and far planes, both ends of coordinates, scales, places far from the origin,
+ * triangles through the planes, eyes and lights inside solids.
  *
- * "The block" is one of 0.5 m x 0.5 m x 1 m on a slab, sun at 45 degrees: no method errs there but by the texel's width. */
+ * "The block" is one of 0.5 m x 0.5 m x 1 m on a slab, sun at 45 degrees: no method errs there but by the texel's
+ * width. */
 #include "hard.h"
 
 #include <math.h>
@@ -88,24 +89,39 @@ static int far_spot_by_hand(const double p[3])
  *     1 : 1000      65527.1 to 65528.8  65521.3 to 65523.2  65520.1 to 65521.9  17
  *     1 : 10^4      65534.66 to .83     65534.09 to .27     65533.96 to 4.15    5.4
  *
- * Constant: the bias exceeds the 7 units between plate and floor at 1 : 1000 already. At 1 : 10^4 floor and plate fall into one
- * unit, 65534, and ties are lit: all of the shadow is lost in 16 bits; in part for those that look at the plate's upper side
- * too, which leaves that unit at x = 0.1. 32 bits hold them all apart.
+ * Constant: the bias exceeds the 7 units between plate and floor at 1 : 1000 already. At 1 : 10^4 floor and plate fall
+ * into one unit, 65534, and ties are lit: all of the shadow is lost in 16 bits; in part for those that look at the
+ * plate's upper side too, which leaves that unit at x = 0.1. 32 bits hold them all apart.
  *
  * From x = 1.45 on the floor is at 65535, an odd unit, as is the slab's underside: `mixed`, which marks the lowest bit,
  * stores 65534 there and shadows the floor, which it should not (6.2 %). */
 #if GN_DEPTH_BITS == 16
 #define SPOT_10000_SECOND LIGHT(8, 9.9)
-#define SPOT_10000_MIDDLE {0, 0.5, 4, 9.9, 0}
-#define SPOT_10000_MIXED {0, 0, 8, 9.9, "the mark takes a unit from solids that are thinner than one"}
+#define SPOT_10000_MIDDLE                                                                                              \
+    {                                                                                                                  \
+        0, 0.5, 4, 9.9, 0                                                                                              \
+    }
+#define SPOT_10000_MIXED                                                                                               \
+    {                                                                                                                  \
+        0, 0, 8, 9.9, "the mark takes a unit from solids that are thinner than one"                                    \
+    }
 #else
-#define SPOT_10000_SECOND {0, 0, 0, 0, 0}
-#define SPOT_10000_MIDDLE {0, 0, 0, 0, 0}
-#define SPOT_10000_MIXED {0, 0, 0, 0, 0}
+#define SPOT_10000_SECOND                                                                                              \
+    {                                                                                                                  \
+        0, 0, 0, 0, 0                                                                                                  \
+    }
+#define SPOT_10000_MIDDLE                                                                                              \
+    {                                                                                                                  \
+        0, 0, 0, 0, 0                                                                                                  \
+    }
+#define SPOT_10000_MIXED                                                                                               \
+    {                                                                                                                  \
+        0, 0, 0, 0, 0                                                                                                  \
+    }
 #endif
 
-/* A spot light of 178 degrees, 3 cm above the floor, and a box half as high: tan 89 = 57, a texel is 0.054 m on the floor.
- * A point of the floor is shadowed if the way to the light passes through the box. */
+/* A spot light of 178 degrees, 3 cm above the floor, and a box half as high: tan 89 = 57, a texel is 0.054 m on the
+ * floor. A point of the floor is shadowed if the way to the light passes through the box. */
 static void build_wide_spot(builder *b)
 {
     const double position[3] = {0, 0.03, 0}, target[3] = {0, 0, 0};
@@ -180,38 +196,34 @@ static void build_far_from_origin(builder *b)
 static void build_far_eye(builder *b)
 {
     finish_block(b, BUILD_METRE);
-    const double eye[3] = {0, 2048, 0}, target[3] = {0, 0, 0}, height = 1.25;
-    int32_t e[3] = {0, 1 << 27, 0}, t[3] = {0, 0, 0}, up[3] = {0, 0, -1};
-    (void)eye, (void)target;
-    gn_status status = gn_look_at(&b->camera, e, t, up);
+    int32_t eye[3] = {0, 1 << 27, 0}, target[3] = {0, 0, 0}, up[3] = {0, 0, -1};
+    gn_status status = gn_look_at(&b->camera, eye, target, up);
     if (status == GN_OK)
-        status = gn_orthographic(&b->camera, (int32_t)(height * b->unit), 1, 1 << 28);
+        status = gn_orthographic(&b->camera, 5 * BUILD_METRE / 4, 1, 1 << 28);
     b->status = b->status == GN_OK ? status : b->status;
 }
 
-/* A perspective eye at 2^27 = 256 m and the narrowest opening, 0.5 degree, which sees 2.23 m there. A reciprocal errs by
- * 2^-18, 1 mm of 256 m. */
+/* A perspective eye at 2^27 = 256 m and the narrowest opening, 0.5 degree, which sees 2.23 m there. A reciprocal errs
+ * by 2^-18, 1 mm of 256 m. */
 static void build_far_perspective(builder *b)
 {
     finish_block(b, 1 << 19);
-    int32_t e[3] = {0, 1 << 27, 0}, t[3] = {0, 0, 0}, up[3] = {0, 0, -1};
-    gn_status status = gn_look_at(&b->camera, e, t, up);
+    int32_t eye[3] = {0, 1 << 27, 0}, target[3] = {0, 0, 0}, up[3] = {0, 0, -1};
+    gn_status status = gn_look_at(&b->camera, eye, target, up);
     if (status == GN_OK)
         status = gn_perspective(&b->camera, (gn_angle)(0x100000000 / 720 + 1), 200 << 19, 300 << 19);
     b->status = b->status == GN_OK ? status : b->status;
 }
 
-/* A spot light at 2^27 = 256 m, 0.75 degree: 3.35 m wide at the slab; 45 degrees high, as parallel as it gets: a point of
- * height 0.5 falls 0.5 m further, by 0.002 m at most. */
+/* A spot light with two coordinates at 2^27 = 256 m, 45 degrees high, 362 m away and 0.75 degree wide: 4.74 m at the
+ * slab. Nearly a sun: what falls 0.5 m further there falls less than 2 mm further here. */
 static void build_distant_spot(builder *b)
 {
+    const double position[3] = {-256, 256, 0}, target[3] = {0, 0, 0};
     b->unit = 1 << 19;
     add_block(b);
     build_camera_above(b, 0, 0, 1.25);
-    double far = 255.99 / sqrt(2) * sqrt(2); /* along each axis the limit is 256 m */
-    const double position[3] = {-far, far, 0}, target[3] = {0, 0, 0};
     build_spot(b, position, target, 0.75, 340, 400);
-    b->map_width = b->map_height = 64;
 }
 
 static int distant_spot_by_hand(const double p[3])
@@ -254,17 +266,17 @@ static int through_near_by_hand(const double p[3])
 {
     if (p[1] > 0.0001)
         return p[1] > 0.299 && p[1] < 0.301 && fabs(p[2]) < 0.3999 && in(p[0], 0.2501, 0.4999) ? BY_HAND_LIT
-                                                                                            : BY_HAND_UNSAID;
-    return p[1] < -0.0001 ? BY_HAND_UNSAID
-                          : lit_unless((in(p[0], 0.25, 0.8) && fabs(p[2]) < 0.4) ||
-                                       (in(p[0], -1.1, -0.05) && fabs(p[2]) < 0.5));
+                                                                                               : BY_HAND_UNSAID;
+    return p[1] < -0.0001
+               ? BY_HAND_UNSAID
+               : lit_unless((in(p[0], 0.25, 0.8) && fabs(p[2]) < 0.4) || (in(p[0], -1.1, -0.05) && fabs(p[2]) < 0.5));
 }
 
 /* A spot light 1 m above the floor that looks down, 90 degrees wide, its near plane at y = 0.7. What is higher casts no
- * shadow: the box above the light, the plate at 0.8. The box from 0.6 to 0.8 is cut there: its section, x from 0.2 to 0.3,
- * |z| < 0.1, shadows x from 0.667 to 1, |z| < 0.333: 0.222 m^2, 2.7 %. Through the section the light sees the box's inside
- * first: dual, which culls it, finds the floor lit; mixed takes the floor for the solid's back and compares it with itself:
- * a tie, which the mark in the lowest bit may decide either way. */
+ * shadow: the box above the light, the plate at 0.8. The box from 0.6 to 0.8 is cut there: its section, x from 0.2 to
+ * 0.3, |z| < 0.1, shadows x from 0.667 to 1, |z| < 0.333: 0.222 m^2, 2.7 %. Through the section the light sees the
+ * box's inside first: dual, which culls it, finds the floor lit; mixed takes the floor for the solid's back and
+ * compares it with itself: a tie, which the mark in the lowest bit may decide either way. */
 static void build_cut_by_light(builder *b)
 {
     const double position[3] = {0, 1, 0}, target[3] = {0, 0, 0};
@@ -325,8 +337,11 @@ static gn_status plan_with(int32_t coordinate, uint16_t width, uint16_t map_widt
 {
     int32_t vertices[3][3] = {{0, 0, 0}, {coordinate, 0, 0}, {0, -coordinate, 5}};
     static const uint16_t indices[3] = {0, 1, 2};
-    gn_mesh mesh = {.vertices = (const int32_t(*)[3])vertices, .indices = indices, .vertex_count = 3,
-                    .triangle_count = 1, .index_size = 2};
+    gn_mesh mesh = {.vertices = (const int32_t(*)[3])vertices,
+                    .indices = indices,
+                    .vertex_count = 3,
+                    .triangle_count = 1,
+                    .index_size = 2};
     gn_object object = {.mesh = &mesh};
     gn_scene scene = {.objects = &object, .object_count = 1};
     gn_settings settings = gn_default_settings(width, 8, map_width);
@@ -409,8 +424,8 @@ static void change_planes(packed_scene *packed, int32_t value)
     (void)gn_perspective(&packed->camera, GN_DEGREES(40), 200, value);
 }
 
-/* The scene ends 6 m behind the box's front, 393,216 integers, 6144 boxes of 64. An orthographic camera's own depth counts
- * as well: 2 m. */
+/* The scene ends 6 m behind the box's front, 393,216 integers, 6144 boxes of 64. An orthographic camera's own depth
+ * counts as well: 2 m. */
 static void change_box_depth(packed_scene *packed, int32_t value)
 {
     (void)gn_orthographic(&packed->camera, 81920, 3 * BUILD_METRE, 5 * BUILD_METRE);
@@ -450,7 +465,8 @@ static void run_limits(hard_row *row)
     at_and_beyond(row, "least_box_width", render_status(change_box_width, 64), render_status(change_box_width, 63));
     at_and_beyond(row, "box_place", render_status(change_box_u, -depth), render_status(change_box_u, -depth - 1));
     at_and_beyond(row, "least_box_depth", render_status(change_box_depth, 64), render_status(change_box_depth, 63));
-    at_and_beyond(row, "far_to_near", render_status(change_planes, 200 << 20), render_status(change_planes, (200 << 20) + 1));
+    at_and_beyond(row, "far_to_near", render_status(change_planes, 200 << 20),
+                  render_status(change_planes, (200 << 20) + 1));
     /* a vertex that moves beyond the world after the plan was made */
     at_and_beyond(row, "vertex_of_a_pass", render_status(change_vertex, world), GN_OUT_OF_RANGE);
     row_remark(row, "%d limits.", row->met + row->unmet);
@@ -461,80 +477,173 @@ static void run_limits(hard_row *row)
 #define GROUP "Numbers"
 
 static const hard_case cases[] = {
-    {.name = "spot_100", .group = GROUP, .flags = LONG, .source = "", .title = "spot light 16 m away, near : far = 1 : 100",
-     .expected = "none errs", .advice = "As it should be.", .build = build_spot_100, .by_hand = far_spot_by_hand},
-    {.name = "spot_1000", .group = GROUP, .flags = LONG, .source = "", .title = "1 : 1000",
+    {.name = "spot_100",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "spot light 16 m away, near : far = 1 : 100",
+     .expected = "none errs",
+     .advice = "As it should be.",
+     .build = build_spot_100,
+     .by_hand = far_spot_by_hand},
+    {.name = "spot_1000",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "1 : 1000",
      .expected = "constant: no shadow, 9.8 %: 2 texels at the near end are 3.7 m at the far end; the others none",
-     .advice = "A bias in texels is converted at sqrt(near far): for spot lights give it in metres, or take second depth.",
-     .build = build_spot_1000, .by_hand = far_spot_by_hand, .picture = METHOD_CONSTANT + 1,
+     .advice =
+         "A bias in texels is converted at sqrt(near far): for spot lights give it in metres, or take second depth.",
+     .build = build_spot_1000,
+     .by_hand = far_spot_by_hand,
      .methods = {[METHOD_CONSTANT] = LIGHT(8, 9.9)}},
-    {.name = "spot_10000", .group = GROUP, .source = "", .title = "1 : 10^4",
-     .expected = "16 bits: floor and plate, a metre apart, have one depth: no shadow, 9.8 %; midpoint, dual in part. 32 bits: none "
+    {.name = "spot_10000",
+     .group = GROUP,
+     .title = "1 : 10^4",
+     .expected = "16 bits: floor and plate, a metre apart, have one depth: no shadow, 9.8 %; midpoint, dual in part. "
+                 "32 bits: none "
                  "but constant",
      .advice = "Near planes as far out as the scene allows; else `GN_DEPTH_BITS=32`.",
-     .build = build_spot_10000, .by_hand = far_spot_by_hand, .picture = METHOD_SECOND + 1,
-     .methods = {[METHOD_CONSTANT] = LIGHT(8, 9.9), [METHOD_MIDPOINT] = SPOT_10000_MIDDLE,
-                 [METHOD_DUAL] = SPOT_10000_MIDDLE, [METHOD_SECOND] = SPOT_10000_SECOND,
-                 [METHOD_MIXED] = SPOT_10000_MIXED, [METHOD_AUTO] = SPOT_10000_SECOND}},
-    {.name = "wide_spot", .group = GROUP, .source = "", .title = "spot light of 178 degrees, 3 cm above a floor",
-     .expected = "constant: no shadow, 0.7 %; the others none", .advice = "As for 1 : 1000.",
-     .build = build_wide_spot, .by_hand = wide_spot_by_hand,
+     .build = build_spot_10000,
+     .by_hand = far_spot_by_hand,
+     .picture = METHOD_MIXED + 1,
+     .methods = {[METHOD_CONSTANT] = LIGHT(8, 9.9),
+                 [METHOD_MIDPOINT] = SPOT_10000_MIDDLE,
+                 [METHOD_DUAL] = SPOT_10000_MIDDLE,
+                 [METHOD_SECOND] = SPOT_10000_SECOND,
+                 [METHOD_MIXED] = SPOT_10000_MIXED,
+                 [METHOD_AUTO] = SPOT_10000_SECOND}},
+    {.name = "wide_spot",
+     .group = GROUP,
+     .title = "spot light of 178 degrees, 3 cm above a floor",
+     .expected = "constant: no shadow, 0.7 %; the others none",
+     .advice = "As for 1 : 1000.",
+     .build = build_wide_spot,
+     .by_hand = wide_spot_by_hand,
      /* 2 t at sqrt(near far) = 16 mm are 57 mm, more than all of the depth. The shadow: 0.35 m x 0.17 m or so. Second
       * depth: half a texel behind the foot's edges, as of the turned block: 0.15 m x 0.027 m. */
-     .methods = {[METHOD_CONSTANT] = LIGHT(0.2, 0.9), [METHOD_SECOND] = LIGHT(0, 0.05), [METHOD_MIXED] = LIGHT(0, 0.05),
+     .methods = {[METHOD_CONSTANT] = LIGHT(0.2, 0.9),
+                 [METHOD_SECOND] = LIGHT(0, 0.05),
+                 [METHOD_MIXED] = LIGHT(0, 0.05),
                  [METHOD_AUTO] = LIGHT(0, 0.05)}},
-    {.name = "distant_spot", .group = GROUP, .flags = LONG, .source = "", .title = "spot light at 2^27, 0.75 degree",
-     .expected = "as under a sun: none errs", .advice = "As it should be.",
-     .build = build_distant_spot, .by_hand = distant_spot_by_hand},
-    {.name = "world_limit", .group = GROUP, .source = "", .title = "the block, corners at +-2^24",
-     .expected = "none errs", .advice = "As it should be.", .build = build_world_limit, .by_hand = block_by_hand},
-    {.name = "thousandth", .group = GROUP, .flags = LONG, .source = "", .title = "the block 10^-3 of that", .expected = "none errs",
+    {.name = "distant_spot",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "spot light at 2^27, 0.75 degree",
+     .expected = "as under a sun: none errs",
+     .advice = "As it should be.",
+     .build = build_distant_spot,
+     .by_hand = distant_spot_by_hand},
+    {.name = "world_limit",
+     .group = GROUP,
+     .title = "the block, corners at +-2^24",
+     .expected = "none errs",
+     .advice = "As it should be.",
+     .build = build_world_limit,
+     .by_hand = block_by_hand},
+    {.name = "thousandth",
+     .group = GROUP,
+     .flags = LONG,
+     .title = "the block 10^-3 of that",
+     .expected = "none errs",
      .advice = "A scene needs some 10,000 integers; the simulator scales it into the range by itself.",
-     .build = build_thousandth, .by_hand = block_by_hand},
-    {.name = "least_box", .group = GROUP, .source = "", .title = "the block in a light's box of 64 integers",
-     .expected = "none errs", .advice = "A texel may be as small as a world integer.",
-     .build = build_least_box, .by_hand = block_by_hand},
-    {.name = "largest_box", .group = GROUP, .source = "", .title = "the block in a light's box of 2^28, map 1024",
-     .expected = "none errs", .advice = "As it should be.", .build = build_largest_box, .by_hand = block_by_hand,
+     .build = build_thousandth,
+     .by_hand = block_by_hand},
+    {.name = "least_box",
+     .group = GROUP,
+     .title = "the block in a light's box of 64 integers",
+     .expected = "none errs",
+     .advice = "A texel may be as small as a world integer.",
+     .build = build_least_box,
+     .by_hand = block_by_hand},
+    {.name = "largest_box",
+     .group = GROUP,
+     .title = "the block in a light's box of 2^28, map 1024",
+     .expected = "none errs",
+     .advice = "As it should be.",
+     .build = build_largest_box,
+     .by_hand = block_by_hand,
      .flags = LONG},
-    {.name = "far_from_origin", .group = GROUP, .source = "", .title = "the block of 10^-3 in the corner of the world",
-     .expected = "none errs", .advice = "As it should be: places are integers, and equal everywhere.",
-     .build = build_far_from_origin, .by_hand = block_by_hand},
-    {.name = "far_eye", .group = GROUP, .source = "", .title = "orthographic eye at 2^27", .expected = "none errs",
-     .advice = "As it should be.", .build = build_far_eye, .by_hand = block_by_hand},
-    {.name = "far_perspective", .group = GROUP, .source = "", .title = "perspective eye at 2^27, 0.5 degree",
-     .expected = "none errs", .advice = "As it should be.", .build = build_far_perspective, .by_hand = block_by_hand},
-    {.name = "camera_10000", .group = GROUP, .source = "", .title = "camera, near : far = 1 : 10^4",
-     .expected = "none errs", .advice = "The camera's depth has 30 bits of 1 / w.",
-     .build = build_camera_10000, .by_hand = block_by_hand},
-    {.name = "through_near", .group = GROUP, .source = "", .title = "floor and panel through the camera's near plane",
-     .expected = "none errs", .advice = "As it should be.", .build = build_through_near,
-     .by_hand = through_near_by_hand, .picture = METHOD_AUTO + 1,
+    {.name = "far_from_origin",
+     .group = GROUP,
+     .title = "the block of 10^-3 in the corner of the world",
+     .expected = "none errs",
+     .advice = "As it should be: places are integers, and equal everywhere.",
+     .build = build_far_from_origin,
+     .by_hand = block_by_hand},
+    {.name = "far_eye",
+     .group = GROUP,
+     .title = "orthographic eye at 2^27",
+     .expected = "none errs",
+     .advice = "As it should be.",
+     .build = build_far_eye,
+     .by_hand = block_by_hand},
+    {.name = "far_perspective",
+     .group = GROUP,
+     .title = "perspective eye at 2^27, 0.5 degree",
+     .expected = "none errs",
+     .advice = "As it should be.",
+     .build = build_far_perspective,
+     .by_hand = block_by_hand},
+    {.name = "camera_10000",
+     .group = GROUP,
+     .title = "camera, near : far = 1 : 10^4",
+     .expected = "none errs",
+     .advice = "The camera's depth has 30 bits of 1 / w.",
+     .build = build_camera_10000,
+     .by_hand = block_by_hand},
+    {.name = "through_near",
+     .group = GROUP,
+     .title = "floor and panel through the camera's near plane",
+     .expected = "none errs",
+     .advice = "As it should be.",
+     .build = build_through_near,
+     .by_hand = through_near_by_hand,
+     .picture = METHOD_AUTO + 1,
      /* The panel's top back edge, 0.25 t on the map, for the midpoint. */
      .methods = {[METHOD_MIDPOINT] = SHADOW(0, 0.5)}},
-    {.name = "cut_by_light", .group = GROUP, .source = "", .title = "solid cut by a light's near plane, another behind the light",
+    {.name = "cut_by_light",
+     .group = GROUP,
+     .title = "solid cut by a light's near plane, another behind the light",
      .expected = "dual: the cut's shadow is lit, 2.7 %; mixed: by chance, a tie; the others none",
      .advice = "Keep solids on one side of a light's near plane, or take second depth.",
-     .build = build_cut_by_light, .by_hand = cut_by_light_by_hand, .picture = METHOD_MIXED + 1,
+     .build = build_cut_by_light,
+     .by_hand = cut_by_light_by_hand,
+     .picture = METHOD_DUAL + 1,
      .methods = {[METHOD_DUAL] = LIGHT(1.8, 2.9), [METHOD_MIXED] = LIGHT(0, 2.9)}},
-    {.name = "camera_inside", .group = GROUP, .source = "", .title = "camera inside a solid; all is dark",
-     .expected = "second depth, mixed, auto: half of the floor and the far wall are lit, 15 to 45 %; constant, dual: a strip "
-                 "below the ceiling, 1 %",
+    {.name = "camera_inside",
+     .group = GROUP,
+     .title = "camera inside a solid; all is dark",
+     .expected =
+         "second depth, mixed, auto: half of the floor and the far wall are lit, 15 to 45 %; constant, dual: a strip "
+         "below the ceiling, 1 %",
      .advice = "A room is not a solid seen from outside: give its walls thickness, or mark it open.",
-     .build = build_camera_inside, .by_hand = all_dark_by_hand, .flags = NO_LIGHT, .picture = METHOD_SECOND + 1,
+     .build = build_camera_inside,
+     .by_hand = all_dark_by_hand,
+     .flags = NO_LIGHT,
+     .picture = METHOD_SECOND + 1,
      /* They are the back faces that the map holds, compared with themselves. Constant, dual: what is within 2 t of the
       * ceiling along the light, 0.088 m of the far wall's 1.2 m; it fills 1/8 of the picture: 1 %. */
-     .methods = {[METHOD_CONSTANT] = LIGHT(0.5, 1.5), [METHOD_DUAL] = LIGHT(0.5, 1.5), [METHOD_SECOND] = LIGHT(15, 45),
-                 [METHOD_MIXED] = LIGHT(15, 45), [METHOD_AUTO] = LIGHT(15, 45)}},
-    {.name = "light_inside", .group = GROUP, .source = "", .title = "spot light inside a solid; all is dark",
+     .methods = {[METHOD_CONSTANT] = LIGHT(0.5, 1.5),
+                 [METHOD_DUAL] = LIGHT(0.5, 1.5),
+                 [METHOD_SECOND] = LIGHT(15, 45),
+                 [METHOD_MIXED] = LIGHT(15, 45),
+                 [METHOD_AUTO] = LIGHT(15, 45)}},
+    {.name = "light_inside",
+     .group = GROUP,
+     .title = "spot light inside a solid; all is dark",
      .expected = "dual: all in the frustum is lit, 92 %; mixed: by chance, a tie; the others none",
      .advice = "Lamps: move the near plane beyond the shade, or mark it open.",
-     .build = build_light_inside, .by_hand = all_dark_by_hand, .flags = NO_LIGHT,
-     /* The light sees the inside of the lamp, back faces; behind them the floor. The frustum is 3.2 m wide on the floor, the
-      * picture 3.33 m; the lamp hides 2 %. */
+     .build = build_light_inside,
+     .by_hand = all_dark_by_hand,
+     .flags = NO_LIGHT,
+     /* The light sees the inside of the lamp, back faces; behind them the floor. The frustum is 3.2 m wide on the
+      * floor, the picture 3.33 m; the lamp hides 2 %. */
      .methods = {[METHOD_DUAL] = LIGHT(85, 96), [METHOD_MIXED] = LIGHT(0, 96)}},
-    {.name = "limits", .group = GROUP, .source = "", .title = "at every limit of core/gnomon.h, and one step beyond",
-     .expected = "accepted; `GN_OUT_OF_RANGE`.", .advice = "No number wraps or crashes later.", .run = run_limits},
+    {.name = "limits",
+     .group = GROUP,
+     .title = "at every limit of core/gnomon.h, and one step beyond",
+     .expected = "accepted; `GN_OUT_OF_RANGE`.",
+     .advice = "No number wraps or crashes later.",
+     .run = run_limits},
 };
 
 const hard_list number_cases = {cases, COUNT(cases)};

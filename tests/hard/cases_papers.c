@@ -2,9 +2,9 @@
  *
  * Wang & Molnar, Second-Depth Shadow Mapping, UNC TR94-019, 1994 (W&M); Weiskopf & Ertl, Shadow Mapping Based on Dual
  * Depth Layers, Eurographics 2003 (W&E). Lengths in metres. t is the side of a texel, on the map; e the height of the
- * sun above the horizon. build_low_sun puts the light's axes so that a point of the floor y = 0 has v = x sin e and depth
- * z = x cos e: a texel's height t on the map is a depth of t cot e on the floor. The camera above has 48 pixels a metre
- * and sees 10/3 m x 5/2 m = 8.33 m^2; a texel of 1/16 m is 3 pixels.
+ * sun above the horizon. build_low_sun puts the light's axes so that a point of the floor y = 0 has v = x sin e and
+ * depth z = x cos e: a texel's height t on the map is a depth of t cot e on the floor. The camera above has 48 pixels a
+ * metre and sees 10/3 m x 5/2 m = 8.33 m^2; a texel of 1/16 m is 3 pixels.
  */
 #include "hard.h"
 
@@ -35,7 +35,8 @@ static void add_floor(builder *b)
     build_box(b, -1.8, 1.8, -0.5, 0, -1.4, 1.4);
 }
 
-/* ---- W&M, figure 4: a table, its legs on the floor ----------------------------------------------------------------- */
+/* ---- W&M, figure 4: a table, its legs on the floor -----------------------------------------------------------------
+ */
 
 /* Map 128: t = 1/32, legs 2 t thick. */
 static void build_table(builder *b, double bias)
@@ -66,17 +67,17 @@ static int table_by_hand(const double p[3])
     return lit_unless(top || back_legs || front_legs);
 }
 
-/* 1/4 t is less than what half a texel spans, 0.5 t cot 30 = 0.87 t: a point more than 0.25 / root 3 = 0.144 t behind its
- * texel's centre is shadowed. Pixels stand t/3 apart on the map, so 1 in 3 is; all surfaces seen are level, and 82 to 88 %
- * of the image is lit: 27 to 30 % of it. */
+/* 1/4 t is less than what half a texel spans, 0.5 t cot 30 = 0.87 t: a point more than 0.25 / root 3 = 0.144 t behind
+ * its texel's centre is shadowed. Pixels stand t/3 apart on the map, so 1 in 3 is; all surfaces seen are level, and 82
+ * to 88 % of the image is lit: 27 to 30 % of it. */
 static void build_table_acne(builder *b)
 {
     build_table(b, 0.25);
 }
 
-/* A point d behind a leg is (d + 2 t) / cos e along the light behind the leg's front, and lit while that is less than the
- * bias: d < 8 t cos 30 - 2 t = 4.93 t = 0.154 m, over a leg's width of 2 t = 0.0625 m, behind the two legs whose backs
- * can be seen: 0.0193 m^2 of 8.33 m^2, 0.23 %. */
+/* A point d behind a leg is (d + 2 t) / cos e along the light behind the leg's front, and lit while that is less than
+ * the bias: d < 8 t cos 30 - 2 t = 4.93 t = 0.154 m, over a leg's width of 2 t = 0.0625 m, behind the two legs whose
+ * backs can be seen: 0.0193 m^2 of 8.33 m^2, 0.23 %. */
 static void build_table_detached(builder *b)
 {
     build_table(b, 8);
@@ -98,7 +99,8 @@ static int ramp_by_hand(const double p[3])
     return p[1] > 0.001 && p[0] < -0.7 ? BY_HAND_UNSAID : table_by_hand(p);
 }
 
-/* Below 3.56 t the ramp shows acne, above 2.31 t a leg has lost the foot of its shadow: every bias is wrong somewhere. */
+/* Below 3.56 t the ramp shows acne, above 2.31 t a leg has lost the foot of its shadow: every bias is wrong somewhere.
+ */
 static void check_no_bias_suits(hard_row *row)
 {
     double least = 100, at = 0;
@@ -119,7 +121,8 @@ static void check_no_bias_suits(hard_row *row)
     row_remark(row, "Best of 1/8 to 32 texels: %.2g texels, %.2f %% of its own.", at, least);
 }
 
-/* ---- W&M, figure 7: a solid thinner than what a texel spans -------------------------------------------------------- */
+/* ---- W&M, figure 7: a solid thinner than what a texel spans --------------------------------------------------------
+ */
 
 static const double thin = 0.1 / 16; /* t / 10 */
 
@@ -168,8 +171,8 @@ static int unshadowing_by_hand(const double p[3])
 }
 
 /* The texel's centre is lit, at a height of 8/32 = 0.25. Where the bias exceeds 0.25, all that the texel holds is lit,
- * down to x = 0: 0.24 m of the slope in height, 2 m wide. With 2 t = 0.125 only what is less than that below 0.25: 0.24 -
- * 0.125 = 0.115 m. 48 pixels a metre; a row of 96 pixels more or less for the rounding of heights to pixels. */
+ * down to x = 0: 0.24 m of the slope in height, 2 m wide. With 2 t = 0.125 only what is less than that below 0.25: 0.24
+ * - 0.125 = 0.115 m. 48 pixels a metre; a row of 96 pixels more or less for the rounding of heights to pixels. */
 static void check_unshadowing(hard_row *row)
 {
     static const double heights[METHOD_COUNT] = {0.115, 0.24, 0.115, 0.24, 0.24, 0.24, 0};
@@ -181,12 +184,13 @@ static void check_unshadowing(hard_row *row)
     }
 }
 
-/* (b) A wedge whose front falls 45 degrees towards a sharp edge at x = 0.625, a border of texels; its back falls 3 in 4,
- * so that the thickness grows by 1/4 of the distance d from the edge. Sun overhead; the camera looks straight at the
- * front, 48 pixels a metre. Heights above the edge: a point d, its texel's centre at d': d'(1 - 1/8) for the midpoint, 3/4
- * d' for the second depth. A point is shadowed where d is less than that:
+/* (b) A wedge whose front falls 45 degrees towards a sharp edge at x = 0.625, a border of texels; its back falls 3 in
+ * 4, so that the thickness grows by 1/4 of the distance d from the edge. Sun overhead; the camera looks straight at the
+ * front, 48 pixels a metre. Heights above the edge: a point d, its texel's centre at d': d'(1 - 1/8) for the midpoint,
+ * 3/4 d' for the second depth. A point is shadowed where d is less than that:
  *
- *     d' = 0.5 t, 1.5 t, 2.5 t, 3.5 t: midpoint 0.4375 + 0.3125 + 0.1875 + 0.0625 = 1 t; second depth 0.375 + 0.125 = 0.5 t
+ *     d' = 0.5 t, 1.5 t, 2.5 t, 3.5 t: midpoint 0.4375 + 0.3125 + 0.1875 + 0.0625 = 1 t; second depth 0.375 + 0.125 =
+ * 0.5 t
  *
  * of the front, 1.6 m wide and foreshortened by nothing (root 2 x d): 0.141 and 0.071 m^2 of 8.33: 1.70 and 0.85 %. */
 static void build_silhouette(builder *b)
@@ -206,11 +210,12 @@ static int silhouette_by_hand(const double p[3])
     return p[1] > 0.01 ? BY_HAND_LIT : lit_unless(in(p[0], -0.575, 0.625) && fabs(p[2]) < 0.8);
 }
 
-/* ---- W&E, figure 3: a receiver nearer to its occluder than the bias ------------------------------------------------ */
+/* ---- W&E, figure 3: a receiver nearer to its occluder than the bias ------------------------------------------------
+ */
 
-/* A plate 2 t thick, 2 t above the floor; e = 60. Its front is 4 t / sin 60 = 4.6 t before the floor along the light. The
- * shadow can be seen for 4 t cot 60 = 0.144 m behind it, over 1.6 m: 0.231 m^2, 2.8 %, of which half a texel all round may
- * be the texel's: (0.144 - 0.036)(1.6 - 0.063) = 0.166 m^2, 2.0 %. */
+/* A plate 2 t thick, 2 t above the floor; e = 60. Its front is 4 t / sin 60 = 4.6 t before the floor along the light.
+ * The shadow can be seen for 4 t cot 60 = 0.144 m behind it, over 1.6 m: 0.231 m^2, 2.8 %, of which half a texel all
+ * round may be the texel's: (0.144 - 0.036)(1.6 - 0.063) = 0.166 m^2, 2.0 %. */
 static void build_near_receiver(builder *b)
 {
     add_floor(b);
@@ -228,12 +233,14 @@ static int near_receiver_by_hand(const double p[3])
     return lit_unless(in(p[0], -0.8 + 0.125 / root_3, 0.4 + 0.25 / root_3) && fabs(p[2]) < 0.8);
 }
 
-/* ---- W&E, figure 4: the midpoint without back faces ---------------------------------------------------------------- */
+/* ---- W&E, figure 4: the midpoint without back faces ----------------------------------------------------------------
+ */
 
 /* (a) Map 16: t = 1/4. The block's top, y = 1.1, ends at x = -0.37, just right of the centre of the texel from -0.5 to
- * -0.25. That centre sees the plate, y = 1.7, and then the floor: their middle, 0.85, is below the block's top, which is lit
- * from -0.37 to -0.25, over 1 m (four texels). Seen from 45 degrees: 0.12 x 0.707 m^2 = 195 pixels, 1.0 % of 19200. With
- * bias 2 t = 0.5 the limit is 1.7 - 0.5 = 1.2, above the block. Sides lean inwards, so that none is edge-on to the sun. */
+ * -0.25. That centre sees the plate, y = 1.7, and then the floor: their middle, 0.85, is below the block's top, which
+ * is lit from -0.37 to -0.25, over 1 m (four texels). Seen from 45 degrees: 0.12 x 0.707 m^2 = 195 pixels, 1.0 % of
+ * 19200. With bias 2 t = 0.5 the limit is 1.7 - 0.5 = 1.2, above the block. Sides lean inwards, so that none is edge-on
+ * to the sun. */
 static void build_background(builder *b)
 {
     const double block[4][2] = {{-0.3, 0.9}, {0.4, 0.9}, {0.4, 1.1}, {-0.37, 1.1}};
@@ -261,16 +268,16 @@ static int background_by_hand(const double p[3])
     return lit_unless((in(p[0], -0.7, 0.1) && fabs(p[2]) < 1) || (in(p[0], -0.37, 0.4) && fabs(p[2]) < 0.5));
 }
 
-/* (b) A face of slope 16:1, y = 16 (x - 0.02), under a plate at 0.85 to 0.87, 1.5 m of its 2.4 m. The texel from 0 to 1/16
- * holds the face from -0.32 to 0.68, its centre stands at 0.18: the middle to the plate, (0.87 + 0.18) / 2 = 0.525, is below
- * 0.525 to 0.68, which is lit: 0.155 m. The next texel's centre sees the solid's top at 0.84: nothing of it is lit. The
- * texel before has its middle at (0.87 - 0.82) / 2 = 0.025, above all it holds. Of 2.09 m x 2.4 m = 5.02 m^2 seen, 4.6 %;
- * within 1/32 texel of the border, 0.031 m, nobody can say which texel it is: 3.7 %.
+/* (b) A face of slope 16:1, y = 16 (x - 0.02), under a plate at 0.85 to 0.87, 1.5 m of its 2.4 m. The texel from 0 to
+ * 1/16 holds the face from -0.32 to 0.68, its centre stands at 0.18: the middle to the plate, (0.87 + 0.18) / 2 =
+ * 0.525, is below 0.525 to 0.68, which is lit: 0.155 m. The next texel's centre sees the solid's top at 0.84: nothing
+ * of it is lit. The texel before has its middle at (0.87 - 0.82) / 2 = 0.025, above all it holds. Of 2.09 m x 2.4 m
+ * = 5.02 m^2 seen, 4.6 %; within 1/32 texel of the border, 0.031 m, nobody can say which texel it is: 3.7 %.
  *
  * Constant bias 2 t = 0.125: above 0.87 - 0.125 all is lit, 0.745 to 0.84, where the texel's centre, beyond the top, is
- * above the plate: 0.095 m, the texel's error. Dual bounds that by half the gap to the solid's top. Where the face is lit
- * (0.9 m) both show acne, as 2 t are less than 8 t: what is 0.125 below a texel's centre, 0.375 m of each metre and 0.68
- * m of all that is seen: 0.61 m^2, 12 %. */
+ * above the plate: 0.095 m, the texel's error. Dual bounds that by half the gap to the solid's top. Where the face is
+ * lit (0.9 m) both show acne, as 2 t are less than 8 t: what is 0.125 below a texel's centre, 0.375 m of each metre and
+ * 0.68 m of all that is seen: 0.61 m^2, 12 %. */
 static void build_steep_receiver(builder *b)
 {
     const double face[4][2] = {{-0.0675, -1.4}, {0.5, -1.4}, {0.5, 0.84}, {0.0725, 0.84}};
@@ -289,7 +296,8 @@ static int steep_receiver_by_hand(const double p[3])
     return p[0] < -0.1 ? BY_HAND_LIT : lit_unless(fabs(p[2]) < 0.75);
 }
 
-/* ---- W&E, figure 5: an L over a plane, map far too small ----------------------------------------------------------- */
+/* ---- W&E, figure 5: an L over a plane, map far too small -----------------------------------------------------------
+ */
 
 /* Map 32: t = 1/8. The upright leans 20 degrees over the base, so that the base is in shadow near the crease; the front
  * leans back by 25 degrees: it is lit, and falls steeply to its lower edge. */
@@ -325,12 +333,19 @@ static void check_l_shape(hard_row *row)
         row_forget(&row->outcomes[methods[i]]);
         row->outcomes[methods[i]] = culled;
         promise(row, plain[i].own_shadow > 4 * culled.own_shadow, 0,
-                "%s_%s_shadows_its_silhouettes_unless_back_faces_are_culled", row->about->name, method_names[methods[i]]);
+                "%s_%s_shadows_its_silhouettes_unless_back_faces_are_culled", row->about->name,
+                method_names[methods[i]]);
     }
     promise(row, row->outcomes[METHOD_MIDPOINT].own_light > 0, 0, "%s_midpoint_unshadows_when_back_faces_are_culled",
             row->about->name);
     promise(row, row->outcomes[METHOD_CONSTANT].own_light > 4 * row->outcomes[METHOD_DUAL].own_light, 0,
             "%s_constant_lights_the_crease", row->about->name);
+    const outcome *o = row->outcomes;
+    uint64_t dual = o[METHOD_DUAL].own_shadow + o[METHOD_DUAL].own_light;
+    promise(row,
+            dual <= o[METHOD_CONSTANT].own_shadow + o[METHOD_CONSTANT].own_light &&
+                dual <= o[METHOD_MIDPOINT].own_shadow + o[METHOD_MIDPOINT].own_light,
+            0, "%s_dual_without_back_faces_errs_least", row->about->name);
     row_remark(row, "Without culling: midpoint %.1f + %.1f, dual %.1f + %.1f.", plain[0].shadow_percent,
                plain[0].light_percent, plain[1].shadow_percent, plain[1].light_percent);
 }
@@ -340,75 +355,139 @@ static void check_l_shape(hard_row *row)
 #define GROUP "The papers' figures"
 
 static const hard_case cases[] = {
-    {.name = "table_acne", .group = GROUP, .flags = LONG, .source = "W&M fig. 4", .title = "table on a floor, bias 1/4 texel",
+    {.name = "table_acne",
+     .group = GROUP,
+     .flags = LONG,
+     .source = "W&M fig. 4",
+     .title = "table on a floor, bias 1/4 texel",
      .expected = "constant, dual: acne on a third of what is lit; the others none",
      .advice = "A constant bias must exceed half a texel's slope: 0.5 cot e texels for light e above the surface.",
-     .build = build_table_acne, .by_hand = table_by_hand, .picture = METHOD_CONSTANT + 1,
+     .build = build_table_acne,
+     .by_hand = table_by_hand,
+     .picture = METHOD_CONSTANT + 1,
      .methods = {[METHOD_CONSTANT] = SHADOW(26, 31), [METHOD_MIDPOINT] = ANYTHING, [METHOD_DUAL] = SHADOW(26, 31)}},
-    {.name = "table_detached", .group = GROUP, .source = "W&M fig. 4", .title = "the same, bias 8 texels",
+    {.name = "table_detached",
+     .group = GROUP,
+     .source = "W&M fig. 4",
+     .title = "the same, bias 8 texels",
      .expected = "constant: the shadows leave the legs, 15 cm; the others none",
      .advice = "A constant bias lights what is nearer than it behind its occluder. Dual bounds it by half the gap.",
-     .build = build_table_detached, .by_hand = table_by_hand, .picture = METHOD_CONSTANT + 1,
+     .build = build_table_detached,
+     .by_hand = table_by_hand,
+     .picture = METHOD_CONSTANT + 1,
      .methods = {[METHOD_CONSTANT] = LIGHT(0.1, 0.35), [METHOD_MIDPOINT] = ANYTHING}},
-    {.name = "table_and_ramp", .group = GROUP, .source = "W&M, section 2",
+    {.name = "table_and_ramp",
+     .group = GROUP,
+     .source = "W&M, section 2",
      .title = "the same and a ramp 8 degrees to the light",
      .expected = "no constant bias is right; second depth needs none.",
      .advice = "For scenes of solids: second depth, which `auto` takes.",
-     .build = build_table_and_ramp, .by_hand = ramp_by_hand, .check = check_no_bias_suits, .flags = LONG,
+     .build = build_table_and_ramp,
+     .by_hand = ramp_by_hand,
+     .check = check_no_bias_suits,
+     .flags = LONG,
      .methods = {[METHOD_CONSTANT] = ANYTHING, [METHOD_MIDPOINT] = ANYTHING, [METHOD_DUAL] = ANYTHING}},
-    {.name = "thin_slab", .group = GROUP, .source = "W&M fig. 7", .title = "slab 1/10 texel thick, sun at 30 degrees",
+    {.name = "thin_slab",
+     .group = GROUP,
+     .source = "W&M fig. 7",
+     .title = "slab 1/10 texel thick, sun at 30 degrees",
      .expected = "second depth, mixed, auto and midpoint: a third to a half of its top shadows itself",
-     .advice = "Second depth needs solids thicker than half a texel, 0.5 t cos e. Thin ones: `dual`, or mark them open and "
-               "take `mixed`. Virtual samples will mend it.",
-     .build = build_thin_slab, .by_hand = thin_slab_by_hand, .picture = METHOD_SECOND + 1,
-     /* A point d behind its texel's centre on the map is d cot 30 deeper, the back of the slab 2 x t / 10: shadowed from
-      * d = 0.1155 t on, midpoint 0.0577 t; pixels are t / 6 apart: 2 or 3 of 6. The top is 1 m x 1.4 m, 16.8 %. */
-     .methods = {[METHOD_MIDPOINT] = SHADOW(5, 8.5), [METHOD_SECOND] = SHADOW(5, 8.5), [METHOD_MIXED] = SHADOW(5, 8.5),
+     .advice =
+         "Second depth needs solids thicker than half a texel, 0.5 t cos e. Thin ones: `dual`, or mark them open and "
+         "take `mixed`. Virtual samples will mend it.",
+     .build = build_thin_slab,
+     .by_hand = thin_slab_by_hand,
+     .picture = METHOD_SECOND + 1,
+     /* A point d behind its texel's centre on the map is d cot 30 deeper, the back of the slab 2 x t / 10: shadowed
+      * from d = 0.1155 t on, midpoint 0.0577 t; pixels are t / 6 apart: 2 or 3 of 6. The top is 1 m x 1.4 m, 16.8 %. */
+     .methods = {[METHOD_MIDPOINT] = SHADOW(5, 8.5),
+                 [METHOD_SECOND] = SHADOW(5, 8.5),
+                 [METHOD_MIXED] = SHADOW(5, 8.5),
                  [METHOD_AUTO] = SHADOW(5, 8.5)}},
-    {.name = "unshadowing", .group = GROUP, .source = "W&E fig. 2a",
+    {.name = "unshadowing",
+     .group = GROUP,
+     .source = "W&E fig. 2a",
      .title = "slope of 8:1 that falls under the edge of its occluder",
-     .expected = "midpoint, second depth: 24 cm of the slope lit; constant, dual 2 texels: 11.5 cm. The texel's own error: its "
-                 "centre is lit",
+     .expected =
+         "midpoint, second depth: 24 cm of the slope lit; constant, dual 2 texels: 11.5 cm. The texel's own error: its "
+         "centre is lit",
      .advice = "The smaller bias errs less where the edge of a shadow falls on a slope.",
-     .build = build_unshadowing, .by_hand = unshadowing_by_hand, .check = check_unshadowing,
+     .build = build_unshadowing,
+     .by_hand = unshadowing_by_hand,
+     .check = check_unshadowing,
      .picture = METHOD_MIDPOINT + 1,
      .methods = {[METHOD_CONSTANT] = SHADOW(5.5, 6.7), [METHOD_DUAL] = SHADOW(5.5, 6.7)}},
-    {.name = "silhouette", .group = GROUP, .source = "W&E fig. 2b", .title = "wedge that falls to a sharp silhouette",
+    {.name = "silhouette",
+     .group = GROUP,
+     .source = "W&E fig. 2b",
+     .title = "wedge that falls to a sharp silhouette",
      .expected = "midpoint: self-shadow, one texel in all (1.7 %); second depth, mixed: half of that",
      .advice = "Solids with sharp edges towards the light: `dual`, which culls back faces.",
-     .build = build_silhouette, .by_hand = silhouette_by_hand, .picture = METHOD_MIDPOINT + 1,
-     .methods = {[METHOD_MIDPOINT] = SHADOW(1.4, 2), [METHOD_SECOND] = SHADOW(0.7, 1), [METHOD_MIXED] = SHADOW(0.7, 1),
+     .build = build_silhouette,
+     .by_hand = silhouette_by_hand,
+     .picture = METHOD_MIDPOINT + 1,
+     .methods = {[METHOD_MIDPOINT] = SHADOW(1.4, 2),
+                 [METHOD_SECOND] = SHADOW(0.7, 1),
+                 [METHOD_MIXED] = SHADOW(0.7, 1),
                  [METHOD_AUTO] = SHADOW(0.7, 1)}},
-    {.name = "near_receiver", .group = GROUP, .flags = LONG, .source = "W&E fig. 3", .title = "plate 4 texels over a floor, bias 8 texels",
+    {.name = "near_receiver",
+     .group = GROUP,
+     .flags = LONG,
+     .source = "W&E fig. 3",
+     .title = "plate 4 texels over a floor, bias 8 texels",
      .expected = "constant: no shadow at all (2.0 to 2.8 %); the others none",
      .advice = "As for the table's legs: a bias larger than the gap takes the shadow away.",
-     .build = build_near_receiver, .by_hand = near_receiver_by_hand, .picture = METHOD_CONSTANT + 1,
+     .build = build_near_receiver,
+     .by_hand = near_receiver_by_hand,
+     .picture = METHOD_CONSTANT + 1,
      .methods = {[METHOD_CONSTANT] = LIGHT(2, 2.8)}},
-    {.name = "background", .group = GROUP, .source = "W&E fig. 4a",
+    {.name = "background",
+     .group = GROUP,
+     .source = "W&E fig. 4a",
      .title = "edge of a receiver far above the floor (midpoint without back faces)",
      .expected = "midpoint: a strip of 12 cm along the edge lit (1.0 %); the others none",
      .advice = "Midpoint with `--cull back` sees the background beyond an edge; `dual` is made for culling.",
-     .build = build_background, .by_hand = background_by_hand, .flags = CULL_BACK, .picture = METHOD_MIDPOINT + 1,
-     .methods = {[METHOD_MIDPOINT] = LIGHT(0.85, 1.2)}},
-    {.name = "steep_receiver", .group = GROUP, .source = "W&E fig. 4b",
-     .title = "receiver of slope 16:1 close below its occluder (midpoint without back faces)",
-     .expected = "midpoint: 15.5 cm lit (4.6 %); second depth, mixed, auto none. Constant and dual: acne where lit (12 %)",
-     .advice = "As above. No bias in texels suits faces that are nearly along the light; second depth needs none.",
-     .build = build_steep_receiver, .by_hand = steep_receiver_by_hand, .flags = CULL_BACK,
+     .build = build_background,
+     .by_hand = background_by_hand,
+     .flags = CULL_BACK,
      .picture = METHOD_MIDPOINT + 1,
-     .methods = {[METHOD_CONSTANT] = SHADOW(11.5, 13), [METHOD_MIDPOINT] = LIGHT(3.5, 4.9), [METHOD_DUAL] = SHADOW(11.5, 13)}},
-    {.name = "l_shape", .group = GROUP, .source = "W&E fig. 5",
+     .methods = {[METHOD_MIDPOINT] = LIGHT(0.85, 1.2)}},
+    {.name = "steep_receiver",
+     .group = GROUP,
+     .source = "W&E fig. 4b",
+     .title = "receiver of slope 16:1 close below its occluder (midpoint without back faces)",
+     .expected =
+         "midpoint: 15.5 cm lit (4.6 %); second depth, mixed, auto none. Constant and dual: acne where lit (12 %)",
+     .advice = "As above. No bias in texels suits faces that are nearly along the light; second depth needs none.",
+     .build = build_steep_receiver,
+     .by_hand = steep_receiver_by_hand,
+     .flags = CULL_BACK,
+     .picture = METHOD_MIDPOINT + 1,
+     .methods =
+         {[METHOD_CONSTANT] = SHADOW(11.5, 13), [METHOD_MIDPOINT] = LIGHT(3.5, 4.9), [METHOD_DUAL] = SHADOW(11.5, 13)}},
+    {.name = "l_shape",
+     .group = GROUP,
+     .source = "W&E fig. 5",
      .title = "leaning L over a plane, map 32, bias 4 texels (midpoint without back faces)",
-     .expected = "self-shadow at the silhouettes unless back faces are culled, then midpoint lights what is shadowed; constant "
-                 "lights the crease; dual without back faces errs least.",
-     .advice = "Dual without back faces (the default of `dual`) is the best of the paper's methods. Second depth lights the "
-               "crease by up to half a texel, where front and back meet.",
-     .build = build_l_shape, .check = check_l_shape, .flags = CULL_BACK, .picture = METHOD_DUAL + 1,
+     .expected =
+         "self-shadow at the silhouettes unless back faces are culled, then midpoint lights what is shadowed; constant "
+         "lights the crease; dual without back faces errs least.",
+     .advice =
+         "Dual without back faces (the default of `dual`) is the best of the paper's methods. Second depth lights the "
+         "crease by up to half a texel, where front and back meet.",
+     .build = build_l_shape,
+     .check = check_l_shape,
+     .flags = CULL_BACK,
+     .picture = METHOD_CONSTANT + 1,
      /* Second depth: edges that fall sideways by up to 0.47 leave less than 0.47 x t/2 of thickness within 0.12 t of
-      * them, on some 2.5 m: 0.5 %. A texel whose centre lies before the crease holds the L's bottom; half a texel, 1/16 m, of a crease
-      * of 0.8 m: 0.05 m^2 at most, 0.6 %. */
-     .methods = {[METHOD_CONSTANT] = ANYTHING, [METHOD_MIDPOINT] = ANYTHING, [METHOD_DUAL] = ANYTHING,
-                 [METHOD_SECOND] = {0, 0.5, 0, 0.6, 0}, [METHOD_MIXED] = {0, 0.5, 0, 0.6, 0}, [METHOD_AUTO] = {0, 0.5, 0, 0.6, 0}}},
+      * them, on some 2.5 m: 0.5 %. A texel whose centre lies before the crease holds the L's bottom; half a texel, 1/16
+      * m, of a crease of 0.8 m: 0.05 m^2 at most, 0.6 %. */
+     .methods = {[METHOD_CONSTANT] = ANYTHING,
+                 [METHOD_MIDPOINT] = ANYTHING,
+                 [METHOD_DUAL] = ANYTHING,
+                 [METHOD_SECOND] = {0, 0.5, 0, 0.6, 0},
+                 [METHOD_MIXED] = {0, 0.5, 0, 0.6, 0},
+                 [METHOD_AUTO] = {0, 0.5, 0, 0.6, 0}}},
 };
 
 const hard_list papers_cases = {cases, COUNT(cases)};

@@ -14,7 +14,7 @@ static const double pi = 3.14159265358979323846;
 
 /* What the scene's builder takes besides the builder. */
 static struct {
-    double azimuth;         /* degrees, of the light about y */
+    double azimuth;          /* degrees, of the light about y */
     double shift_u, shift_v; /* of the light's box, texels */
 } light = {0, 0, 0};
 
@@ -76,12 +76,12 @@ static double own_percent(const hard_row *row, const outcome *o, int method)
 
 /* What the methods may err by on their own in this scene on a map of 64, in per cent of 8.33 m^2, t = 0.066 m:
  *
- * constant, dual: a roof of the wedge (56 degrees steep, 0.28 m^2 seen from above) that light grazes below 14 degrees spans
- * more than 2 t in half a texel: at most half of it is dark, 1.7 %. Near upright edges solids are thinner than 2 t along the
- * light: four corners of (2 t)^2 / 2 at most, 0.035 m^2, 0.4 %;
- * midpoint: half a texel along the edges of the tops, some 4 m: 0.13 m^2, 1.6 %;
- * second depth, mixed: half a texel behind the contact of the block, 2.4 m, of which half is away from the light: t / 2 sin 45 =
- * 0.047 m: 0.056 m^2, 0.7 %; and along edges that fall sideways (the wedge), 0.5 % as of the L. */
+ * constant, dual: a roof of the wedge (56 degrees steep, 0.28 m^2 seen from above) that light grazes below 14 degrees
+ * spans more than 2 t in half a texel: at most half of it is dark, 1.7 %. Near upright edges solids are thinner than 2
+ * t along the light: four corners of (2 t)^2 / 2 at most, 0.035 m^2, 0.4 %; midpoint: half a texel along the edges of
+ * the tops, some 4 m: 0.13 m^2, 1.6 %; second depth, mixed: half a texel behind the contact of the block, 2.4 m, of
+ * which half is away from the light: t / 2 sin 45 = 0.047 m: 0.056 m^2, 0.7 %; and along edges that fall sideways (the
+ * wedge), 0.5 % as of the L. */
 static const double own_limit[METHOD_COUNT] = {2.1, 1.6, 2.1, 1.2, 1.2, 1.2, 0};
 
 /* ---- 360 directions ---------------------------------------------------------------------------------------------- */
@@ -127,7 +127,8 @@ static void run_directions(hard_row *row)
     reset();
 }
 
-/* ---- the light moves by less than a texel -------------------------------------------------------------------------- */
+/* ---- the light moves by less than a texel --------------------------------------------------------------------------
+ */
 
 /* Truth stays the same, as a sun has no place. Pixels that are answered differently on the way through a texel. */
 static void run_translation(hard_row *row)
@@ -173,9 +174,10 @@ static void run_translation(hard_row *row)
         double flipped = 100.0 * (double)count / (double)surface;
         if (!worst[method].ran)
             continue;
-        /* Shadow edges of 10 m in all, half a texel to either side, t / sin 45 = 0.093 m long on the floor: 0.93 m^2. */
-        promise(row, flipped <= (method == METHOD_VOLUMES ? 0 : 11), 0, "%s_%s_flips_as_derived",
-                row->about->name, method_names[method]);
+        /* Shadow edges of 10 m in all, half a texel to either side, t / sin 45 = 0.093 m long on the floor: 0.93 m^2.
+         */
+        promise(row, flipped <= (method == METHOD_VOLUMES ? 0 : 11), 0, "%s_%s_flips_as_derived", row->about->name,
+                method_names[method]);
         promise(row, worst_own[method] <= own_limit[method], 0, "%s_%s_errs_as_derived", row->about->name,
                 method_names[method]);
         row_remark(row, "%s%s %.1f", method ? ", " : "Flip: ", method_names[method], flipped);
@@ -186,11 +188,12 @@ static void run_translation(hard_row *row)
     reset();
 }
 
-/* ---- maps and images of all sizes ---------------------------------------------------------------------------------- */
+/* ---- maps and images of all sizes ----------------------------------------------------------------------------------
+ */
 
 static void run_maps(hard_row *row)
 {
-    static const uint16_t maps[][2] = {{1, 1},   {1, 4096}, {4096, 1},  {3, 5},      {17, 1000},
+    static const uint16_t maps[][2] = {{1, 1},   {1, 4096},  {4096, 1},   {3, 5},      {17, 1000},
                                        {64, 64}, {255, 257}, {1024, 512}, {4096, 4096}};
     double total[COUNT(maps)][METHOD_COUNT] = {{0}};
     size_t last = hard_is_short() ? COUNT(maps) - 3 : COUNT(maps);
@@ -241,12 +244,12 @@ static void run_images(hard_row *row)
             gn_settings s = method_settings(&row->packed, method, 0);
             row_measure(row, method, &s);
             const outcome *o = &row->outcomes[method];
-            if (!o->ran && method == METHOD_VOLUMES)
-                continue;
             /* of a single pixel a per cent says nothing: the errors of a picture 4096 pixels wide are along one line */
-            promise(row, o->ran && o->coverage == 0 && (images[i][1] < 100 || images[i][0] < 100 ||
-                                                        own_percent(row, o, method) <= own_limit[method]),
-                    0, "%s_%ux%u_%s_errs_as_derived", row->about->name, images[i][0], images[i][1], method_names[method]);
+            promise(row,
+                    o->ran && o->coverage == 0 &&
+                        (images[i][1] < 100 || images[i][0] < 100 || own_percent(row, o, method) <= own_limit[method]),
+                    0, "%s_%ux%u_%s_errs_as_derived", row->about->name, images[i][0], images[i][1],
+                    method_names[method]);
             if (images[i][0] == 161)
                 keep_worst(&worst[method], o);
         }
@@ -256,7 +259,8 @@ static void run_images(hard_row *row)
     reset();
 }
 
-/* ---- ways to cut the work ------------------------------------------------------------------------------------------ */
+/* ---- ways to cut the work ------------------------------------------------------------------------------------------
+ */
 
 /* Invariant 4: the result depends neither on regions nor on workers. */
 static void run_cuts(hard_row *row)
@@ -296,21 +300,38 @@ static void run_cuts(hard_row *row)
 #define GROUP "Sweeps"
 
 static const hard_case cases[] = {
-    {.name = "directions", .group = GROUP, .source = "", .title = "360 directions of the light, 45 degrees high",
-     .expected = "edges of half a texel; of their own at most 2.1 % (constant, dual: a roof in grazing light), second depth 1.2 %.",
-     .advice = "No direction stands out; where a texel's side lies along a shadow's edge all of it is right or wrong at once.",
+    {.name = "directions",
+     .group = GROUP,
+     .title = "360 directions of the light, 45 degrees high",
+     .expected = "edges of half a texel; of their own at most 2.1 % (constant, dual: a roof in grazing light), second "
+                 "depth 1.2 %.",
+     .advice = "No direction stands out; where a texel's side lies along a shadow's edge all of it is right or wrong "
+               "at once.",
      .run = run_directions},
-    {.name = "translation", .group = GROUP, .source = "", .title = "light's box moved by 1/16 texel, 32 places",
+    {.name = "translation",
+     .group = GROUP,
+     .title = "light's box moved by 1/16 texel, 32 places",
      .expected = "only pixels within half a texel of an edge flip.",
      .advice = "A box that is fitted anew makes edges crawl: set it once, or move it by whole texels.",
      .run = run_translation},
-    {.name = "maps", .group = GROUP, .source = "", .title = "maps from 1x1 to 4096x4096",
-     .expected = "errors go with the side of a texel.", .advice = "The figures are those of the last map.",
+    {.name = "maps",
+     .group = GROUP,
+     .title = "maps from 1x1 to 4096x4096",
+     .expected = "errors go with the side of a texel.",
+     .advice = "The figures are those of the last map.",
      .run = run_maps},
-    {.name = "images", .group = GROUP, .source = "", .title = "images of 1x1, 17x3, 161x119, 4096x1, 1x4096",
-     .expected = "as for 160x120.", .advice = "The figures are those of 161x119.", .run = run_images},
-    {.name = "cuts", .group = GROUP, .source = "", .title = "regions, rows of the map, 1 to 64 workers",
-     .expected = "every mask equal, bit for bit", .advice = "Regions trade memory for time only.", .run = run_cuts},
+    {.name = "images",
+     .group = GROUP,
+     .title = "images of 1x1, 17x3, 161x119, 4096x1, 1x4096",
+     .expected = "as for 160x120.",
+     .advice = "The figures are those of 161x119.",
+     .run = run_images},
+    {.name = "cuts",
+     .group = GROUP,
+     .title = "regions, rows of the map, 1 to 64 workers",
+     .expected = "every mask equal, bit for bit",
+     .advice = "Regions trade memory for time only.",
+     .run = run_cuts},
 };
 
 const hard_list sweep_cases = {cases, COUNT(cases)};

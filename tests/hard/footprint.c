@@ -152,7 +152,8 @@ static void see(footprint *f, size_t pixel, double x, double y)
     along(point, from, nearest, way);
     to_light(f, point, light);
     int same_side = dot(t->normal, light) * dot(t->normal, way) < 0;
-    f->mask[pixel] = same_side && in_frustum(f, point) && !is_blocked(f, point, f->receiver[pixel], rounding_of_points) ? 254 : 0;
+    f->mask[pixel] =
+        same_side && in_frustum(f, point) && !is_blocked(f, point, f->receiver[pixel], rounding_of_points) ? 254 : 0;
 }
 
 static void take_triangles(footprint *f)
@@ -256,7 +257,8 @@ static void texel_ray(const footprint *f, const map_frame *m, const double place
     }
 }
 
-static int centre_differs(const footprint *f, const map_frame *m, int32_t receiver, const double place[2], uint8_t truth)
+static int centre_differs(const footprint *f, const map_frame *m, int32_t receiver, const double place[2],
+                          uint8_t truth)
 {
     double from[3], way[3], to[3], point[3];
     const footprint_triangle *t = &f->triangles[receiver];

@@ -78,8 +78,7 @@ static void check_outcome(hard_row *row, int method)
     if (!promise(row, o->met, e->unmet, "%s_%s_errs_as_derived", c->name, method_names[method]))
         say("of its own: false shadow %.3f %%, expected %g to %g; false light %.3f %%, expected %g to %g", shadow,
             e->shadow_least, e->shadow_most, light, e->light_least, e->light_most);
-    if (!promise(row, o->coverage == 0, c->coverage_unmet, "%s_%s_sees_the_surfaces_of_the_truth", c->name,
-                 method_names[method]))
+    if (!promise(row, o->coverage == 0, 0, "%s_%s_sees_the_surfaces_of_the_truth", c->name, method_names[method]))
         say("%llu pixels see a surface in one mask alone", (unsigned long long)o->coverage);
 }
 
@@ -90,8 +89,7 @@ static void run_methods(hard_row *row)
         row_measure(row, method, &settings);
         if (row->outcomes[method].ran)
             check_outcome(row, method);
-        else if (method != METHOD_VOLUMES &&
-                 !promise(row, 0, 0, "%s_%s_renders", row->about->name, method_names[method]))
+        else if (!promise(row, 0, 0, "%s_%s_renders", row->about->name, method_names[method]))
             say("%s", row->outcomes[method].refusal);
     }
 }
@@ -101,7 +99,7 @@ static void run_case(hard_row *row)
     const hard_case *c = row->about;
     if (c->run) {
         c->run(row);
-    } else if (!row_begin(row, c->build, !(c->flags & NO_NEAR))) {
+    } else if (!row_begin(row, c->build, 1)) {
         run_methods(row);
         if (c->check)
             c->check(row);
@@ -110,6 +108,9 @@ static void run_case(hard_row *row)
 }
 
 /* ---- the table ------------------------------------------------------------------------------------------------- */
+
+static const char *const column_names[METHOD_COUNT] = {"constant", "midpoint", "dual",   "second depth",
+                                                       "mixed",    "auto",     "volumes"};
 
 static void print_cell(const hard_row *row, int method)
 {
@@ -123,21 +124,36 @@ static void print_cell(const hard_row *row, int method)
     printf(" %s%.1f + %.1f%s |", mark, o->shadow_percent, o->light_percent, mark);
 }
 
+/* Promises of which the case says that they do not hold today, and that did not. */
+static int known_to_fail(const hard_row *row)
+{
+    int count = 0;
+    for (int method = 0; method < METHOD_COUNT; method++) {
+        const outcome *o = &row->outcomes[method];
+        count += o->ran && !o->met && row->about->methods[method].unmet;
+    }
+    return count;
+}
+
 static void print_row(const hard_row *row)
 {
     const hard_case *c = row->about;
-    printf("| %s%s%s%s | %s%s%s |", c->title, c->source[0] ? " (" : "", c->source, c->source[0] ? ")" : "", c->expected,
-           row->remark[0] ? " " : "", row->remark);
+    printf("| %s%s%s%s | %s%s%s |", c->title, c->source ? " (" : "", c->source ? c->source : "", c->source ? ")" : "",
+           c->expected, row->remark[0] ? " " : "", row->remark);
     for (int method = 0; method < METHOD_COUNT; method++)
         print_cell(row, method);
-    printf(" %s%s |\n", c->advice, row->unmet ? " **Not met.**" : "");
+    printf(" %s", c->advice);
+    for (int method = 0; row->unmet && method < METHOD_COUNT; method++)
+        if (row->outcomes[method].ran && !row->outcomes[method].met && c->methods[method].unmet)
+            printf(" **Not met**, %s: %s.", column_names[method], c->methods[method].unmet);
+    printf("%s |\n", row->unmet > known_to_fail(row) ? " **Not met.**" : "");
 }
 
 static void print_group(const char *group)
 {
     printf("\n## %s\n\n| case | expected |", group);
     for (int method = 0; method < METHOD_COUNT; method++)
-        printf(" %s |", method_names[method]);
+        printf(" %s |", column_names[method]);
     printf(" what to know |\n|---|---|");
     for (int method = 0; method < METHOD_COUNT; method++)
         printf("---|");
@@ -170,8 +186,8 @@ static int write_pictures(hard_row *row)
         failed = 1;
     }
     if (!failed) {
-        image difference = comparison_picture(&(comparison_input){
-            settings.width, settings.height, o->mask, row->truth.mask, row->near, COMPARISON_EDGE_BAND});
+        image difference = comparison_picture(&(comparison_input){settings.width, settings.height, o->mask,
+                                                                  row->truth.mask, row->near, COMPARISON_EDGE_BAND});
         failed = write_image(&colours, c->name, "") || write_image(&difference, c->name, ".difference");
         image_free(&difference);
     }

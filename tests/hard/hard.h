@@ -58,7 +58,6 @@ typedef struct outcome {
     uint8_t *mask;
     uint64_t false_shadow, false_light, own_shadow, own_light, coverage; /* pixels; coverage: not near a tie */
     double shadow_percent, light_percent; /* false shadow and light, of the pixels that see a surface */
-    double worst; /* greatest distance of a wrong pixel from the true shadow edge on the image, pixels; 0: none */
 } outcome;
 
 struct hard_case;
@@ -72,7 +71,7 @@ typedef struct hard_row {
     int32_t origin[3];
     uint8_t *near; /* near a tie, or on one */
     outcome outcomes[METHOD_COUNT];
-    int met, unmet; /* promises kept and broken */
+    int met, unmet;   /* promises kept and broken */
     char remark[400]; /* figures of this run for the table */
 } hard_row;
 
@@ -80,13 +79,12 @@ enum { BY_HAND_SHADOWED = 0, BY_HAND_LIT = 254, BY_HAND_UNSAID = 1 };
 
 /* Flags of a case. */
 enum {
-    NO_SHADOW = 1,    /* truly no shadowed pixel: `expected` says why */
-    NO_LIGHT = 2,     /* truly no lit pixel */
-    LONG = 4,         /* not in the short list that the slower builds run */
-    CULL_BACK = 8,    /* midpoint: with back faces culled */
-    CULL_NONE = 16,   /* dual: without culling */
-    NO_NEAR = 32,     /* ties are not looked for: five times as fast */
-    COUNT_TIES = 64   /* pixels on an exact tie of the truth count as well: the case is about them */
+    NO_SHADOW = 1,  /* truly no shadowed pixel: `expected` says why */
+    NO_LIGHT = 2,   /* truly no lit pixel */
+    LONG = 4,       /* not in the short list that the slower builds run */
+    CULL_BACK = 8,  /* midpoint: with back faces culled */
+    CULL_NONE = 16, /* dual: without culling */
+    COUNT_TIES = 32 /* pixels on an exact tie of the truth count as well: the case is about them */
 };
 
 typedef struct hard_case {
@@ -99,7 +97,6 @@ typedef struct hard_case {
     void (*run)(hard_row *row);            /* in place of build: a sweep that fills the row itself */
     unsigned flags;
     int picture; /* method of the picture, + 1; 0: none */
-    const char *coverage_unmet; /* why some pixel sees another surface than in truth; 0: none may */
     expectation methods[METHOD_COUNT];
 } hard_case;
 

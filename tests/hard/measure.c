@@ -86,7 +86,6 @@ void measure(hard_row *row, outcome *o)
     o->shadow_percent = percent_of(row, o->false_shadow);
     o->light_percent = percent_of(row, o->false_light);
     o->coverage = f->coverage;
-    o->worst = f->together.pixels && c.has_edge ? f->together.worst : 0;
     o->own_shadow = o->own_light = 0;
     for (size_t i = 0; i < (size_t)t->width * t->height; i++) {
         if (row->near[i] || o->mask[i] == t->mask[i] || o->mask[i] == 255 || t->mask[i] == 255)

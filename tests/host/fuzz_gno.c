@@ -21,25 +21,32 @@ static uint32_t crc32_of(const uint8_t *bytes, size_t size)
     return ~crc;
 }
 
-/* Small pictures only, for speed. A refusal is fine, as long as it is one that the core documents for scenes. */
-static void render(packed_scene *packed)
+static void draw(packed_scene *packed, gn_shadow shadow)
 {
     frame f;
     problem why;
+    packed->settings.shadow = (uint8_t)shadow;
+    if (frame_open(&f, &packed->scene, &packed->settings, 1, &why) == 0 &&
+        frame_light_pass(&f, &packed->light, &why) == 0)
+        frame_camera_pass(&f, &packed->camera, &why);
+    frame_close(&f);
+}
+
+/* Small pictures only, for speed. A refusal is fine, as long as it is one that the core documents for scenes. */
+static void render(packed_scene *packed)
+{
+    problem why;
     gn_plan plan;
-    if (packed->settings.shadow == GN_SHADOW_VOLUMES && packed_make_edges(packed, 0, &why))
-        return;
+    packed->settings.shadow = GN_SHADOW_MAP;
     gn_status status = gn_make_plan(&plan, &packed->scene, &packed->settings);
     if (status != GN_OK && status != GN_UNSUPPORTED)
         abort();
     packed->settings.width = packed->settings.height = packed->settings.map_width = packed->settings.map_height = 24;
     packed->settings.mask = 1;
-    if (status != GN_OK)
-        return;
-    if (frame_open(&f, &packed->scene, &packed->settings, 1, &why) == 0 &&
-        frame_light_pass(&f, &packed->light, &why) == 0)
-        frame_camera_pass(&f, &packed->camera, &why);
-    frame_close(&f);
+    if (status == GN_OK)
+        draw(packed, GN_SHADOW_MAP);
+    if (packed_make_edges(packed, 0, &why) == 0)
+        draw(packed, GN_SHADOW_VOLUMES);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)

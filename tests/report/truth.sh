@@ -34,7 +34,5 @@ if [ -z "$folder" ] || [ -z "$scenes" ]; then usage; fi
 mkdir -p "$folder"
 echo "$scenes" | while read -r scene; do
     [ -n "$scene" ] || continue
-    mask=$folder/$(basename "$scene" .scene).pgm
-    "$gnomon" truth "$scene" --mask "$mask.new" >/dev/null </dev/null
-    mv "$mask.new" "$mask"
+    "$gnomon" truth "$scene" --mask "$folder/$(basename "$scene" .scene).pgm" >/dev/null </dev/null
 done

@@ -1,0 +1,3 @@
+/* The job of footprint.c by shadow volumes. */
+#define FOOTPRINT_SHADOW GN_SHADOW_VOLUMES
+#include "footprint.c"
