@@ -155,14 +155,17 @@ $(foreach t,$(EMBEDDED_TARGETS),$(foreach d,$(DEPTHS),\
 $(foreach t,$(HOSTED_TARGETS),$(foreach d,$(DEPTHS),\
 	$(eval $(call compile,$(t)-$(d),$($(t)_CC),$($(t)_FLAGS) -DGN_DEPTH_BITS=$(d)))))
 
+LINKER_SCRIPTS := $(wildcard port/*/*.ld)
+
 # $(call embedded_rules,TARGET,TARGET-DEPTH)
 define embedded_rules
 $(BUILD)/$(2)/libgnomon.a: $(call objects,$(2),$(CORE))
 	$$(call archive,$($(1)_TOOL))
-$(BUILD)/$(2)/%.elf: $(BUILD)/objects/$(2)/port/%.o $(call objects,$(2),$(PROGRAM) $($(1)_PORT)) $(BUILD)/$(2)/libgnomon.a
+$(BUILD)/$(2)/%.elf: $(BUILD)/objects/$(2)/port/%.o $(call objects,$(2),$(PROGRAM) $($(1)_PORT)) $(BUILD)/$(2)/libgnomon.a \
+		$(LINKER_SCRIPTS)
 	$$(call say,link)
 	@mkdir -p $$(@D)
-	$(quiet)$($(1)_TOOL)gcc $($(1)_FLAGS) $($(1)_LINK) $$^ -lgcc -o $$@
+	$(quiet)$($(1)_TOOL)gcc $($(1)_FLAGS) $$($(1)_LINK) $$(filter-out %.ld,$$^) -lgcc -o $$@
 $(BUILD)/objects/$(2)/port/firmware.o $(BUILD)/objects/$(2)/port/bench/bench.o: $(GOLDEN_HEADERS)
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN) -kernel)

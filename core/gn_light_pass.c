@@ -382,9 +382,10 @@ gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker
             for (size_t i = 0; i < count; i++)
                 z1[i] = z2[i];
         break;
-    default: /* GN_MIXED: an empty texel holds the largest value, whose lowest bit is set; dual keeps it */
+    default: /* GN_MIXED: an empty texel holds the largest value, whose lowest bit is set; dual keeps it. A second depth
+              * gets the bit back that its mark took: what lies in its own unit is lit, as with the other surfaces */
         for (size_t i = 0; i < count; i++)
-            z1[i] = z1[i] & 1 ? dual(z1[i], z2[i], bias) : z2[i];
+            z1[i] = z1[i] & 1 ? dual(z1[i], z2[i], bias) : (gn_depth)(z2[i] | 1);
     }
     context->progress[region] = GN_REGION_DONE;
     return GN_OK;

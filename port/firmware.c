@@ -94,7 +94,7 @@ static const method methods[] = {
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-static uint64_t memory[128 * 1024];
+static uint64_t memory[100 * 1024];
 
 /* Whole planes, put together from regions, so that hashes do not depend on how the work was cut. */
 static gn_depth layers[2][MAP * MAP];

@@ -255,8 +255,8 @@ static void identifiers_that_do_not_fit_are_refused(void)
     enum { MANY = 70000 };
     static uint16_t indices[3 * MANY];
     int32_t vertex[1][3] = {{0, 0, 0}};
-    gn_mesh big = {(const int32_t(*)[3])vertex, indices, 1, MANY, 2, 0};
-    gn_mesh small = {(const int32_t(*)[3])vertex, indices, 1, 1, 2, 0};
+    gn_mesh big = {(const int32_t(*)[3])vertex, indices, 1, MANY, 2, 0, 0, 0};
+    gn_mesh small = {(const int32_t(*)[3])vertex, indices, 1, 1, 2, 0, 0, 0};
     gn_object *objects = grown(0, 40000 * sizeof *objects);
     gn_scene scene;
     gn_plan plan;
@@ -477,7 +477,7 @@ static void odd_sizes_work(const courtyard *c)
 
 static void empty_scenes_show_the_background(const courtyard *c)
 {
-    gn_mesh nothing = {0, 0, 0, 0, 2, 1};
+    gn_mesh nothing = {0, 0, 0, 0, 2, 1, 0, 0};
     gn_object object = {&nothing, 0, {1, 2, 3}};
     for (int objects = 0; objects < 2; objects++) {
         for (int format = GN_NO_COLOUR; format <= GN_RGB565; format++) {

@@ -177,7 +177,7 @@ static gn_depth surface_of(const gn_context *context, texel t)
     case GN_SECOND:
         return context->plan.layers == GN_LAYERS_TWO ? t.z2 : t.z1;
     default:
-        return t.z1 & 1 ? (gn_depth)(t.z1 + least(half, bias)) : t.z2;
+        return t.z1 & 1 ? (gn_depth)(t.z1 + least(half, bias)) : (gn_depth)(t.z2 | 1);
     }
 }
 
@@ -744,7 +744,7 @@ static void mixed_by_hand(void)
         uint32_t z1 = (grid_depth(cases[n].z1) & ~1u) + (uint32_t)cases[n].open1;
         uint32_t z2 = (grid_depth(cases[n].z2) & ~1u) + (uint32_t)cases[n].open2;
         if (cases[n].expect == '2')
-            expected = (gn_depth)z2;
+            expected = (gn_depth)(z2 | 1); /* what lies in its unit is lit */
         if (cases[n].expect == 'd')
             expected = (gn_depth)(z1 + grid_bias(cases[n].bias));
         if (cases[n].expect == 'h')

@@ -95,3 +95,11 @@ for map in 256 1024; do
     done
 done
 join limits-crease 2x2 256 256.difference 1024 1024.difference
+
+# One pixel on the line where two solids meet.
+shot "$gnomon" volumes colonnade_view2 50x30+320+174 --method volumes
+for picture in volumes volumes.difference; do
+    oiiotool "$work/$picture.png" --resample:interp=0 400x240 -o "$work/large.png"
+    mv "$work/large.png" "$work/$picture.png"
+done
+join limits-volumes 2x1 volumes volumes.difference
