@@ -21,8 +21,8 @@ say = $(if $(filter 0,$(V)),@echo "  $(1)  $@")
 
 CORE := $(wildcard core/*.c)
 # No inner loops: compiled for size where flash counts.
-SETUP_SOURCES := $(patsubst %,core/gn_%.c,bias bins camera_pass clip face lambert matrix nearness plan scaled shading \
-	silhouette transform trigonometry view volumes_spot wide)
+SETUP_SOURCES := $(patsubst %,core/gn_%.c,bias bins camera_pass clip lambert matrix plan scaled shading silhouette \
+	transform trigonometry view volumes_spot wide)
 HOST := $(wildcard host/*.c)
 EMBEDDED_TARGETS :=
 HOSTED_TARGETS :=

@@ -15,7 +15,7 @@ static const uint16_t triangles[12][3] = {
     {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, /* bottom, top */
     {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, /* left, right */
 };
-static const gn_mesh cube = {corners, triangles, 8, 12, sizeof(uint16_t), 1};
+static const gn_mesh cube = {corners, triangles, 8, 12, sizeof(uint16_t), 1, 0, 0};
 
 /* In units of 1/1024: a slab of 6 x 0.25 x 6 metres whose top is at y = 0, and a box of 1.5 x 2 x 1 on it. */
 static const gn_model slab = {{{6144, 0, 0}, {0, 256, 0}, {0, 0, 6144}}, {0, -M / 8, 0}, 10};

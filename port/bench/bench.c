@@ -104,8 +104,8 @@ static const uint16_t quad_indices[][3] = {{0, 1, 2}, {0, 2, 3}};
 static const int32_t wide_quad[4][3] = {
     {-HALF, -HALF, 0}, {HALF, -HALF, 4000}, {HALF, HALF, 9000}, {-HALF, HALF, 5000}};
 static const int32_t narrow_quad[4][3] = {{-HALF, -HALF, 0}, {0, -HALF, 2000}, {0, HALF, 7000}, {-HALF, HALF, 5000}};
-static const gn_mesh wide_mesh = {wide_quad, quad_indices, 4, 2, sizeof(uint16_t), 0};
-static const gn_mesh narrow_mesh = {narrow_quad, quad_indices, 4, 2, sizeof(uint16_t), 0};
+static const gn_mesh wide_mesh = {wide_quad, quad_indices, 4, 2, sizeof(uint16_t), 0, 0, 0};
+static const gn_mesh narrow_mesh = {narrow_quad, quad_indices, 4, 2, sizeof(uint16_t), 0, 0, 0};
 
 /* Quads over all or half of the map's columns, in front of or behind one another: every texel of the last ones is
  * nearer than all before (pass) or farther (fail). */
@@ -132,7 +132,7 @@ static void measure_texels(const char *name, const gn_mesh *mesh, gn_layers laye
 static void measure_map(const char *name, gn_layers layers)
 {
     static const int32_t speck[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    static const gn_mesh mesh = {speck, quad_indices, 3, 1, sizeof(uint16_t), 0};
+    static const gn_mesh mesh = {speck, quad_indices, 3, 1, sizeof(uint16_t), 0, 0, 0};
     static const gn_object object = {&mesh, 0, {0, 0, 0}};
     gn_scene scene = scene_of(&object, 1);
     gn_settings settings = light_settings(layers);
@@ -184,7 +184,7 @@ static void make_small_triangles(void)
 static gn_mesh small_mesh(const void *indices, uint32_t vertex_count, uint32_t triangle_count)
 {
     const gn_mesh mesh = {
-        (const int32_t(*)[3])small_vertices, indices, vertex_count, triangle_count, sizeof(uint16_t), 0};
+        (const int32_t(*)[3])small_vertices, indices, vertex_count, triangle_count, sizeof(uint16_t), 0, 0, 0};
     return mesh;
 }
 
@@ -226,8 +226,8 @@ static const int32_t receiver[4][3] = {
     {-13000, -10000, -18500}, {13000, -10000, -21500}, {13000, 10000, -20500}, {-13000, 10000, -17500}};
 static const int32_t occluder[4][3] = {
     {-20500, -3000, 10000}, {-7500, -3000, 10000}, {-7500, 18000, 10000}, {-20500, 18000, 10000}};
-static const gn_mesh receiver_mesh = {receiver, quad_indices, 4, 2, sizeof(uint16_t), 0};
-static const gn_mesh occluder_mesh = {occluder, quad_indices, 4, 2, sizeof(uint16_t), 0};
+static const gn_mesh receiver_mesh = {receiver, quad_indices, 4, 2, sizeof(uint16_t), 0, 0, 0};
+static const gn_mesh occluder_mesh = {occluder, quad_indices, 4, 2, sizeof(uint16_t), 0, 0, 0};
 static const gn_object room[] = {{&receiver_mesh, 0, {200, 180, 160}}, {&occluder_mesh, 0, {90, 90, 90}}};
 
 typedef struct view {

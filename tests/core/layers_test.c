@@ -614,31 +614,41 @@ static const by_hand cases_by_hand[] = {
      {60, 0}},
 };
 
-/* Both worlds: mirrored, a scene gives the same map. */
-static void render_by_hand(const by_hand *c, int mirrored)
+/* Other ways to the same map: in y the other way round; both x and y; levels so large that they are clipped. */
+typedef enum variant { PLAIN, MIRRORED, TURNED, CLIPPED, CLIPPED_MIRRORED, VARIANTS } variant;
+
+static void render_by_hand(const by_hand *c, variant how)
 {
+    static const char *const variant_names[VARIANTS] = {"", ", mirrored", ", turned", ", clipped",
+                                                        ", clipped and mirrored"};
     shape shapes[4];
     gn_object objects[4];
-    gn_model mirror;
+    gn_model model;
     gn_scene scene;
     frame f;
+    int mirrored = how == MIRRORED || how == CLIPPED_MIRRORED, clipped = how == CLIPPED || how == CLIPPED_MIRRORED;
+    int32_t least = clipped ? -(1 << 22) : -300, most = clipped ? 1 << 22 : 2000;
     memset(objects, 0, sizeof objects);
     memset(&scene, 0, sizeof scene);
-    gn_model_identity(&mirror);
-    mirror.m[1][1] = -mirror.m[1][1];
-    mirror.t[1] = 1024;
+    gn_model_identity(&model);
+    model.m[1][1] = -model.m[1][1];
+    model.t[1] = 1024;
+    if (how == TURNED) {
+        model.m[0][0] = -model.m[0][0];
+        model.t[0] = 1024;
+    }
     for (int i = 0; i < 4; i++) {
         shapes[i] = shape_new(c->levels[i].kind != 'o');
         if (!c->levels[i].kind)
             continue;
-        add_level(&shapes[i], -300, -300, 2000, 2000, -c->levels[i].depth, (c->levels[i].kind != 'b') ^ mirrored);
+        add_level(&shapes[i], least, least, most, most, -c->levels[i].depth, (c->levels[i].kind != 'b') ^ mirrored);
         if (mirrored) /* order as if unmirrored, in a mesh that the model mirrors */
             for (uint32_t k = 0; k < 2; k++) {
                 uint32_t index = shapes[i].indices[3 * k];
                 shapes[i].indices[3 * k] = shapes[i].indices[3 * k + 1];
                 shapes[i].indices[3 * k + 1] = index;
             }
-        objects[scene.object_count].model = mirrored ? &mirror : 0;
+        objects[scene.object_count].model = mirrored || how == TURNED ? &model : 0;
         objects[scene.object_count++].mesh = &shapes[i].mesh;
     }
     scene.objects = objects;
@@ -670,7 +680,7 @@ static void render_by_hand(const by_hand *c, int mirrored)
         }
     }
     good &= frame_end(&f);
-    if (!ok(good, "%s%s", c->name, mirrored ? ", mirrored" : ""))
+    if (!ok(good, "%s%s", c->name, variant_names[how]))
         note("status %d", (int)status);
     for (int i = 0; i < 4; i++)
         shape_free(&shapes[i]);
@@ -678,10 +688,9 @@ static void render_by_hand(const by_hand *c, int mirrored)
 
 static void surfaces_by_hand(void)
 {
-    for (size_t i = 0; i < sizeof cases_by_hand / sizeof cases_by_hand[0]; i++) {
-        render_by_hand(&cases_by_hand[i], 0);
-        render_by_hand(&cases_by_hand[i], 1);
-    }
+    for (size_t i = 0; i < sizeof cases_by_hand / sizeof cases_by_hand[0]; i++)
+        for (int how = 0; how < VARIANTS; how++)
+            render_by_hand(&cases_by_hand[i], (variant)how);
 }
 
 /* One texel of a map of two layers, for cases that depend on the format's own units: depths are set by distances in a

@@ -4,6 +4,7 @@
  * its ray; a spot light's own reciprocal adds 2^-18 of u, v and 1/w. What else is lost is rounding: of the expressions'
  * constants (2^-27 of their terms) and of their steps (half a unit each, over half the image at most). Cases: 40000, or
  * GNOMON_CASES. */
+#include "gn_lambert.h"
 #include "scenes.h"
 
 #include <math.h>
@@ -584,6 +585,25 @@ static void colours_by_hand(void)
     colour_by_hand("light along the surface", 0, GN_RGB888, 0, 1, 0, c, 0, 0, 0);
 }
 
+/* 2^16 is full light. The unit's fraction 65535 means 1: as much is added from one half on. */
+static void intensities_are_rounded(uint64_t cases)
+{
+    gn_scene scene = {0, 0, {0, 0, 0}, 0};
+    gn_context context;
+    uint64_t failures = 0;
+    memset(&context, 0, sizeof context);
+    context.scene = &scene;
+    for (uint64_t n = 0; n < cases; n++) {
+        uint32_t cosine = (uint32_t)between(0, 0x10000), got;
+        scene.ambient = (uint16_t)(n % 3 ? between(0, 65535) : 65535);
+        real ambient = scene.ambient + (scene.ambient >= 32768 ? 1 : 0);
+        got = gn_intensity(&context, cosine);
+        failures += got != (uint32_t)floorl(ambient + (65536 - ambient) * cosine / 65536 + 0.5L);
+    }
+    ok(!failures, "intensities are rounded to the nearest unit: %llu of %llu are not", (unsigned long long)failures,
+       (unsigned long long)cases);
+}
+
 /* ---- whole frames against rays --------------------------------------------------------------------------------- */
 
 /* Plates over a floor: is the light hidden from a point on the floor? */
@@ -795,10 +815,31 @@ static void walls_at_the_far_plane_stay_shadowed(uint64_t cases)
     ok(shadowed > 1000 && lit > 1000, "%llu shadowed, %llu lit", (unsigned long long)shadowed, (unsigned long long)lit);
 }
 
+/* ---- ties ------------------------------------------------------------------------------------------------------ */
+
+/* Depths as the light pass stores them: the map's own depth is lit, the next one behind it is not. */
+static void ties_are_lit(uint64_t cases)
+{
+    uint64_t shadowed = 0, own = 0;
+    for (uint64_t n = 0; n < cases; n++) {
+        uint32_t bits = (uint32_t)between(0, 14), z = (uint32_t)between(0, (1 << (16 + bits)) - 1);
+        uint32_t step = GN_DEPTH_BITS == 16 ? 1 : 1u << (16 - bits);
+        gn_depth stored = (gn_depth)(GN_DEPTH_BITS == 16 ? z >> bits : z << (16 - bits));
+        own += (int32_t)compare(z, bits, stored) < 0;
+        shadowed += stored < step || (int32_t)compare(z, bits, (gn_depth)(stored - step)) < 0;
+    }
+    ok(!own, "what lies at the map's own depth is lit: %llu of %llu are not", (unsigned long long)own,
+       (unsigned long long)cases);
+    ok(shadowed == cases, "what lies one step behind it is not: %llu of %llu", (unsigned long long)shadowed,
+       (unsigned long long)cases);
+}
+
 int main(int argc, char **argv)
 {
     uint64_t cases = tap_cases(argc, argv, 40000);
     colours_by_hand();
+    intensities_are_rounded(cases);
+    ties_are_lit(cases);
     places_in_light_space_keep_their_bounds(cases);
     colours_are_lambert(cases);
     facing_is_decided_exactly(cases);

@@ -534,10 +534,96 @@ static void ranges_are_checked(void)
     BOX(box_z, -(1 << 28), (1 << 28));
 }
 
+/* ---- models and boxes ------------------------------------------------------------------------------------------ */
+
+__extension__ typedef __int128 exact;
+
+/* floor((m v + half) / 2^shift) + t: half is what rounds to nearest, the larger one at a tie. */
+static void models_place_to_the_nearest_unit(uint64_t cases)
+{
+    uint64_t failures = 0, placed = 0, refused = 0;
+    for (uint64_t n = 0; n < cases; n++) {
+        gn_model model;
+        int32_t v[1][3], world[3];
+        gn_mesh mesh = {0};
+        gn_object object = {&mesh, &model, {0, 0, 0}};
+        int beyond = 0;
+        model.shift = (uint8_t)(between(0, 3) ? between(24, 36) : between(0, 62));
+        int32_t most = between(0, 1) ? 1 << 30 : 1 << between(0, 30);
+        for (int i = 0; i < 3; i++) {
+            v[0][i] = between(-GN_WORLD_MAX, GN_WORLD_MAX);
+            model.t[i] = between(-GN_WORLD_MAX, GN_WORLD_MAX);
+            for (int k = 0; k < 3; k++)
+                model.m[i][k] = between(-most, most);
+        }
+        mesh.vertices = (const int32_t(*)[3])v;
+        mesh.vertex_count = 1;
+        gn_status status = gn_world_position(&object, 0, world);
+        for (int i = 0; i < 3; i++) {
+            exact divisor = (exact)1 << model.shift, doubled = divisor;
+            for (int k = 0; k < 3; k++)
+                doubled += 2 * (exact)model.m[i][k] * v[0][k];
+            exact expected = doubled / (2 * divisor) - (doubled % (2 * divisor) < 0) + model.t[i];
+            int out = expected < -GN_WORLD_MAX || expected > GN_WORLD_MAX;
+            beyond |= out;
+            failures += world[i] != (out ? 0 : expected);
+        }
+        failures += status != (beyond ? GN_OUT_OF_RANGE : GN_OK);
+        placed += !beyond;
+        refused += (uint64_t)beyond;
+    }
+    ok(!failures, "models place vertices to the nearest unit");
+    ok(placed > cases / 10 && refused > cases / 10, "%llu vertices placed, %llu refused", (unsigned long long)placed,
+       (unsigned long long)refused);
+}
+
+/* Along each axis: 1 % of the extent to either side of the scene; the map is square. */
+static void boxes_hold_the_scene(uint64_t cases)
+{
+    uint64_t failures = 0;
+    for (uint64_t n = 0; n < cases / 100 && failures < 5; n++) {
+        shape s = shape_new(0);
+        gn_object object = {&s.mesh, 0, {0, 0, 0}};
+        gn_scene scene = {&object, 1, {0, 0, 0}, 0};
+        gn_light light;
+        int32_t direction[3] = {between(-1000, 1000), between(-1000, 1000), between(1, 1000)};
+        int32_t reach = 1 << between(10, 24);
+        real low[3] = {HUGE_VALL, HUGE_VALL, HUGE_VALL}, high[3] = {-HUGE_VALL, -HUGE_VALL, -HUGE_VALL};
+        gn_status status = gn_directional_light(&light, direction, 0);
+        const gn_q2_30 *axes[3] = {light.right, light.up, light.forward};
+        for (int v = between(3, 8); v > 0; v--) {
+            int32_t p[3] = {between(-reach, reach), between(-reach, reach), between(-reach, reach)};
+            add_vertex(&s, p[0], p[1], p[2]);
+            for (int a = 0; a < 3; a++) {
+                real along = ldexpl((real)axes[a][0] * p[0] + (real)axes[a][1] * p[1] + (real)axes[a][2] * p[2], -30);
+                low[a] = fminl(low[a], along);
+                high[a] = fmaxl(high[a], along);
+            }
+        }
+        if (status == GN_OK)
+            status = gn_fit_light(&light, &scene);
+        real square = fmaxl(high[0] - low[0], high[1] - low[1]);
+        real extent[3] = {square, square, fmaxl(high[2] - low[2], square / 256)};
+        real start[3] = {light.box_u, light.box_v, light.box_z};
+        real size[3] = {light.box_width, light.box_height, light.box_depth};
+        for (int a = 0; a < 3; a++) {
+            int good = status == GN_OK && fabsl(size[a] - 1.02L * extent[a]) <= 4 &&
+                       fabsl(start[a] + size[a] / 2 - (low[a] + high[a]) / 2) <= 2;
+            if (!good && failures++ < 5)
+                note("case %llu, axis %d: status %d, from %.1Lf, size %.1Lf; the scene from %.1Lf to %.1Lf",
+                     (unsigned long long)n, a, (int)status, start[a], size[a], low[a], high[a]);
+        }
+        shape_free(&s);
+    }
+    ok(!failures, "a fitted box holds the scene in its middle");
+}
+
 int main(int argc, char **argv)
 {
     uint64_t cases = tap_cases(argc, argv, 200000);
     vertices_by_hand();
+    models_place_to_the_nearest_unit(cases);
+    boxes_hold_the_scene(cases);
     ranges_are_checked();
     projective_views_keep_their_bounds(cases);
     affine_views_keep_their_bounds(cases);

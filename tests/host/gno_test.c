@@ -162,6 +162,62 @@ static void volumes_are_kept(void)
     packed_free(&back);
 }
 
+/* The numbers between the braces that follow a name, in order; returns how many there are. */
+static int numbers_after(const char *text, const char *name, long *numbers, int most)
+{
+    const char *at = strstr(text, name);
+    int count = 0;
+    at = at ? strchr(at, '{') : 0;
+    for (const char *end = at ? strstr(at, "};") : 0; at && at < end && count < most;) {
+        char *after;
+        long number = strtol(at, &after, 10);
+        if (after != at)
+            numbers[count++] = number;
+        at = after != at ? after : at + 1;
+    }
+    return count;
+}
+
+/* A tetrahedron, the one mesh of a scene: a file of bytes and a header of C. */
+static void a_closed_mesh_is_kept(void)
+{
+    static const char mesh[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    static const uint16_t corners[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    static char header[20000];
+    char text[sizeof scene + 2];
+    long numbers[20];
+    problem why;
+    packed_scene packed;
+    const char *to_file[] = {sandbox_path("in-closed.scene"), "-o", sandbox_path("in-closed.gno"), 0};
+    const char *to_header[] = {sandbox_path("in-closed.scene"), "-o", sandbox_path("in-closed.h"), 0};
+    snprintf(text, sizeof text, "%.*smesh in.ob3 surface closed color 1 1 1\n",
+             (int)(strstr(scene, "mesh") - scene), scene);
+    sandbox_write_text("in-closed.scene", text);
+    sandbox_write_text("in.ob3", mesh);
+    int done = sandbox_run(command_pack, to_file) == EXIT_DONE && sandbox_run(command_pack, to_header) == EXIT_DONE;
+    done = done && packed_read(&packed, sandbox_path("in-closed.gno"), 0, &why) == 0;
+    if (!ok(done && packed.mesh_count == 1 && packed.meshes[0].closed && packed.meshes[0].triangle_count == 4 &&
+                packed.meshes[0].vertex_count == 4 && packed.meshes[0].index_size == 2 &&
+                memcmp(packed.meshes[0].indices, corners, sizeof corners) == 0,
+            "a_closed_mesh_and_its_corners_come_back")) {
+        note("%s", sandbox_message);
+        return;
+    }
+    FILE *file = fopen(sandbox_path("in-closed.h"), "r");
+    header[file ? fread(header, 1, sizeof header - 1, file) : 0] = 0;
+    if (file)
+        fclose(file);
+    int same = numbers_after(header, "_indices_0[", numbers, 20) == 12;
+    for (int i = 0; same && i < 12; i++)
+        same = numbers[i] == corners[i];
+    ok(same, "a_header_holds_its_corners");
+    same = numbers_after(header, "_vertices_0[", numbers, 20) == 12;
+    for (int i = 0; same && i < 12; i++)
+        same = numbers[i] == packed.meshes[0].vertices[i / 3][i % 3];
+    ok(same, "and_its_vertices");
+    packed_free(&packed);
+}
+
 static void a_method_is_kept(void)
 {
     problem why;
@@ -416,6 +472,7 @@ int main(void)
     a_method_is_kept();
     edges_are_packed();
     volumes_are_kept();
+    a_closed_mesh_is_kept();
     broken_files();
     both_directions();
     random_edges();

@@ -68,7 +68,7 @@ join numbers 2x2 spot_10000 through_near cut_by_light camera_inside
 cat >"$work/4.caption" <<'END'
 ![numbers](pictures/stability-numbers.png)
 
-Spot light with planes 1 : 10^4, 16 bits (mixed): no shadow, and a dark band where the mark costs a unit; floor and panel through the near
+Spot light with planes 1 : 10^4, 16 bits (mixed): no shadow; floor and panel through the near
 plane (auto); solids cut by the light's near plane (dual), inside a solid (second depth).
 END
 
