@@ -3,7 +3,7 @@
 int64_t gn_plane_distance(const gn_view *view, const gn_place *p, int plane)
 {
     int64_t w = p->c[2];
-    if (view->endless && plane == (view->affine ? 0 : 1))
+    if (plane < 2 && view->endless && (view->affine || plane == 1))
         return 1;
     if (plane == 0)
         return w - view->near_w;

@@ -104,14 +104,12 @@ void gn_project_face(const gn_view *view, const gn_face *f, gn_outline *out)
 {
     gn_face clipped[2];
     const gn_face *last = f;
-    int to = 0, infinite = 0;
+    int to = 0;
     int planes = is_inside(view, f) ? 0 : GN_CLIP_PLANES;
     out->count = 0;
-    for (int32_t i = 0; i < f->count; i++)
-        infinite |= f->infinite[i];
     for (int plane = 0; plane < planes && last->count >= 3; plane++) {
-        /* the far plane; and what an orthographic camera compares need not be cut at the near plane */
-        if (plane == (view->affine ? 0 : 1) || (plane == 1 && infinite) || !is_cut(view, last, plane))
+        /* nothing ends at the far plane, nor what an orthographic camera sees at the near plane: it is compared */
+        if (plane == 1 || (plane == 0 && view->affine) || !is_cut(view, last, plane))
             continue;
         clip_face(view, last, &clipped[to], plane);
         last = &clipped[to];
@@ -130,18 +128,25 @@ void gn_project_face(const gn_view *view, const gn_face *f, gn_outline *out)
 gn_place gn_place_direction(const gn_view *view, const int32_t d[3])
 {
     gn_wide sum[3];
-    int32_t bits = -10000;
-    gn_place p;
+    int32_t bits = -10000, parts = view->affine ? 2 : 3;
+    gn_place p = {{0, 0, 0}};
     for (int i = 0; i < 3; i++) {
         const gn_row *row = &view->row[i];
         sum[i] = gn_widen(gn_multiply(row->m[0], d[0]) + gn_multiply(row->m[1], d[1]) + gn_multiply(row->m[2], d[2]),
                           -row->shift);
-        bits = (i < 2 || !view->affine) && gn_wide_bits(sum[i]) > bits ? gn_wide_bits(sum[i]) : bits;
     }
-    for (int i = 0; i < 3; i++)
-        p.c[i] = i < 2 || !view->affine ? gn_wide_round(sum[i], bits - 29) : 0;
-    if (view->affine && p.c[0] == 0 && p.c[1] == 0)
-        p.c[0] = -(1 << 29); /* along the view: as if the view were turned a little to the right (gn_lid_along_view) */
+    if (view->affine) {
+        /* As if the view were turned by 2^-24: two directions in one plane with the view, one to either side of it,
+         * would be opposite on the screen, and rounding would choose the half that a side between them covers. */
+        gn_wide turned = sum[2];
+        turned.e += view->row[2].shift - view->row[0].shift - 24;
+        sum[0] = gn_wide_add(sum[0], turned);
+        sum[1] = gn_wide_add(sum[1], gn_wide_multiply(turned, gn_widen(40503, -16)));
+    }
+    for (int i = 0; i < parts; i++)
+        bits = gn_wide_bits(sum[i]) > bits ? gn_wide_bits(sum[i]) : bits;
+    for (int i = 0; i < parts; i++)
+        p.c[i] = gn_wide_round(sum[i], bits - (view->affine ? 40 : 29));
     return p;
 }
 

@@ -28,10 +28,10 @@ typedef struct gn_corner {
 
 void gn_add_corner(gn_face *f, const gn_place *place, uint8_t infinite);
 
-/* Clip and project. The near plane is that of the camera: nothing before it is seen. */
+/* Clip and project. Perspective faces end at the camera's near plane: nothing before it is seen. */
 void gn_project_face(const gn_view *view, const gn_face *f, gn_outline *out);
 
-/* A direction as a place at infinity, |d| <= 2^30. */
+/* A direction as a place at infinity, |d| <= 2^30: 29 bits, in an affine view 40. */
 gn_place gn_place_direction(const gn_view *view, const int32_t d[3]);
 
 void gn_set_corner(gn_corner *c, const gn_view *view, const gn_light *light, const int32_t world[3]);

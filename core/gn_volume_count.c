@@ -12,6 +12,12 @@ GN_INLINE void span_behind(const void *state, int32_t row, int32_t left, int32_t
     while (++count != end);
 }
 
+/* max(low, min(value, high)) < point */
+GN_INLINE int is_behind(int64_t value, int64_t low, int64_t high, int64_t point)
+{
+    return low < point && (value < point || high < point);
+}
+
 GN_INLINE void span_compared(const void *state, int32_t row, int32_t left, int32_t right, unsigned shift)
 {
     const gn_volume_target *t = state;
@@ -24,7 +30,7 @@ GN_INLINE void span_compared(const void *state, int32_t row, int32_t left, int32
     uint32_t weight = t->weight, own0 = t->own[0], own1 = t->own[1];
     GN_TALLY(t->tally->centres += (uint32_t)pixels;)
     for (int32_t i = 0; i < pixels; i++, value += dx)
-        if (gn_clamp(value, low, high) < gn_floor_shift_64(point[i], shift) || triangle[i] == own0 ||
+        if (is_behind(value, low, high, gn_floor_shift_64(point[i], shift)) || triangle[i] == own0 ||
             triangle[i] == own1)
             count[i] = (uint16_t)(count[i] + weight);
 }

@@ -9,7 +9,8 @@
  *
  * Counting is z-fail: faces behind the visible point, +1 where they turn away from the camera, -1 where they turn to
  * it; what the near plane cuts off is before every point and never missed. Nothing is cut at the far plane. A cap is
- * behind the visible point of every pixel that it covers, or is the point's own triangle: no comparison. A lid is at
+ * behind the visible point of every pixel that it covers, or is the point's own triangle: no comparison (but where an
+ * orthographic camera's near plane would cut it). A lid is at
  * infinity: no comparison. It is drawn as a fan from the light's axis over the silhouette edges.
  * Sides compare nearness (gn_nearness.h), held to the range of their corners: of the point, on its triangle's plane,
  * and of the side. A side over an edge of the point's own triangle is always behind: it lies on the other side of the
@@ -100,18 +101,45 @@ static void draw_silhouettes(gn_volume_region *r)
 
 /* ---- caps ------------------------------------------------------------------------------------------------------ */
 
-static GN_NOINLINE void draw_clipped_cap(gn_volume_region *r, const gn_object *object, const uint32_t index[3],
-                                         int32_t winding)
+void gn_count_cap(gn_volume_region *r, const gn_outline *o, uint32_t identifier, int32_t world[3][3], int32_t winding)
 {
-    gn_place place[3];
+    const gn_eye *eye = &r->volumes->eye;
+    if (eye->perspective) {
+        gn_count_outline(&r->target, o, winding, r->window, GN_BEHIND);
+        return;
+    }
+    gn_reach reach = gn_empty_reach();
+    int32_t edge[2][3], apart[3];
+    int64_t n[3];
+    for (int i = 0; i < 3; i++) {
+        gn_reach_point(&reach, eye, world[i]);
+        edge[0][i] = world[1][i] - world[0][i];
+        edge[1][i] = world[2][i] - world[0][i];
+        apart[i] = world[0][i] - eye->position[i];
+    }
+    gn_cross(n, edge[0], edge[1]);
+    gn_set_plane(&r->target, eye, n, gn_wide_dot(n, apart), &reach);
+    r->target.own[0] = r->target.own[1] = identifier;
+    gn_count_outline(&r->target, o, winding, r->window, GN_COMPARED);
+}
+
+static GN_NOINLINE void draw_clipped_cap(gn_volume_region *r, uint32_t number, uint32_t triangle, int32_t winding)
+{
+    const gn_object *object = &r->context->scene->objects[number];
+    int32_t world[3][3];
+    uint32_t index[3];
     gn_face f;
     gn_outline o;
-    gn_triangle_places(&r->volumes->view, object, index, place);
+    gn_triangle_indices(object->mesh, triangle, index);
     f.count = 0;
-    for (int i = 0; i < 3; i++)
-        gn_add_corner(&f, &place[i], 0);
+    for (int i = 0; i < 3; i++) {
+        gn_place place;
+        (void)gn_world_position(object, index[i], world[i]);
+        (void)gn_view_place(&r->volumes->view, world[i], &place);
+        gn_add_corner(&f, &place, 0);
+    }
     gn_project_face(&r->volumes->view, &f, &o);
-    gn_count_outline(&r->target, &o, winding, r->window, GN_BEHIND);
+    gn_count_cap(r, &o, number << r->context->triangle_bits | triangle, world, winding);
 }
 
 GN_INLINE void draw_cap(void *user, uint32_t number, uint32_t triangle)
@@ -128,7 +156,7 @@ GN_INLINE void draw_cap(void *user, uint32_t number, uint32_t triangle)
     const gn_vertex *vertices = context->vertices + state->first_vertex;
     const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
     if (state->clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0))
-        draw_clipped_cap(r, object, index, winding);
+        draw_clipped_cap(r, number, triangle, winding);
     else
         gn_count_piece(&r->target, v0, v1, v2, winding, r->window, GN_BEHIND);
 }
@@ -255,8 +283,7 @@ static void find_rows(gn_context *context)
         if (light->kind != GN_SPOT)
             continue;
         if (volumes->view.affine) {
-            volumes->outside =
-                (uint16_t)(volumes->outside + gn_lid_along_view(context, ends[0].away, ends[1].away, winding));
+            volumes->outside = (uint16_t)(volumes->outside + gn_lid_along_view(context, &ends[0], &ends[1], winding));
             continue;
         }
         gn_make_lid(&o, &volumes->view, &axis, &ends[0], &ends[1]);

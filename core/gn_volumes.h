@@ -42,12 +42,15 @@ typedef struct gn_volume_region {
     gn_volume_target target;
 } gn_volume_region;
 
+/* A cap that is clipped, or might lie before the near plane of an orthographic camera: there it is compared. */
+void gn_count_cap(gn_volume_region *r, const gn_outline *o, uint32_t identifier, int32_t world[3][3], int32_t winding);
+
 /* gn_volumes_spot.c: volumes of triangles that the near plane of a spot light cuts; the frustum; and how often the
- * part of a lid over the edge from a to b (ways from the light) covers the one direction in which an orthographic
+ * part of a lid over the edge from a to b covers the one direction in which an orthographic
  * camera looks, and the same of all cut triangles. */
 void gn_count_cut_volumes(gn_volume_region *r);
 void gn_count_frustum(gn_volume_region *r);
-uint32_t gn_lid_along_view(const gn_context *context, const int32_t a[3], const int32_t b[3], int32_t winding);
+uint32_t gn_lid_along_view(const gn_context *context, const gn_corner *a, const gn_corner *b, int32_t winding);
 uint32_t gn_cut_lids_along_view(const gn_context *context);
 
 #endif

@@ -75,16 +75,16 @@ static void draw_cut_volume(gn_volume_region *r, uint32_t number, uint32_t trian
     const gn_eye *eye = &r->volumes->eye;
     gn_reach reach = gn_empty_reach();
     int32_t apart[3];
-    cut c;
+    cut c = {.count = 0};
     gn_face cap;
     gn_outline o;
     find_cut(&c, r->context, &r->context->scene->objects[number], triangle);
-    r->target.own[0] = r->target.own[1] = GN_NO_TRIANGLE;
     cap.count = 0;
     for (int32_t i = 0; i < c.count; i++)
         gn_add_corner(&cap, &c.corners[i].place, 0);
     gn_project_face(view, &cap, &o);
-    gn_count_outline(&r->target, &o, c.winding, r->window, GN_BEHIND);
+    gn_count_cap(r, &o, number << r->context->triangle_bits | triangle, c.world, c.winding);
+    r->target.own[0] = r->target.own[1] = GN_NO_TRIANGLE;
     for (int i = 0; i < 3; i++) {
         gn_reach_point(&reach, eye, c.world[i]);
         apart[i] = light->position[i] - eye->position[i];
@@ -199,27 +199,27 @@ void gn_count_frustum(gn_volume_region *r)
 
 /* ---- the lid, seen by an orthographic camera ------------------------------------------------------------------- */
 
-/* The way from p to q about the camera's forward; in a tie about a view turned a little to its right, then up. */
-static int turn(const gn_camera *camera, const int32_t p[3], const int32_t q[3])
+/* The way from p to q on the screen, by their directions as they are drawn: 1, -1, or 0. Products of 80 bits. */
+static int turn(const gn_place *p, const gn_place *q)
 {
-    int64_t n[3];
-    gn_cross(n, p, q);
-    int sign = gn_dot_sign(n, camera->forward);
-    sign = sign ? sign : gn_dot_sign(n, camera->right);
-    return sign ? sign : gn_dot_sign(n, camera->up);
+    int64_t xh = gn_floor_shift_64(q->c[0], 20), xl = q->c[0] & 0xfffff;
+    int64_t yh = gn_floor_shift_64(q->c[1], 20), yl = q->c[1] & 0xfffff;
+    int64_t low = p->c[0] * yl - p->c[1] * xl, high = p->c[0] * yh - p->c[1] * xh + gn_floor_shift_64(low, 20);
+    return high < 0 ? -1 : high > 0 || (low & 0xfffff) ? 1 : 0;
 }
 
-uint32_t gn_lid_along_view(const gn_context *context, const int32_t a[3], const int32_t b[3], int32_t winding)
+uint32_t gn_lid_along_view(const gn_context *context, const gn_corner *a, const gn_corner *b, int32_t winding)
 {
     const int32_t *forward = context->camera.forward, *axis = context->light.forward;
-    int first = turn(&context->camera, b, a), second = turn(&context->camera, a, axis),
-        third = turn(&context->camera, axis, b);
+    gn_place centre = gn_place_direction(&context->volumes->view, axis);
+    int first = turn(&b->direction, &a->direction), second = turn(&a->direction, &centre),
+        third = turn(&centre, &b->direction);
     if (first != second || second != third)
         return 0;
-    int64_t along = 0; /* the cone, not its mirror image */
+    int64_t along = 0; /* the cone, not its mirror image: all its directions go with the axis */
     for (int i = 0; i < 3; i++)
         along += gn_multiply(axis[i], forward[i]);
-    return along > 0 ? (uint32_t)(first > 0 ? winding : -winding) : 0;
+    return along > 0 ? (uint32_t)(first > 0 ? winding : -winding) : 0; /* y points down: clockwise turns away */
 }
 
 uint32_t gn_cut_lids_along_view(const gn_context *context)
@@ -228,13 +228,12 @@ uint32_t gn_cut_lids_along_view(const gn_context *context)
     uint32_t sum = 0;
     for (uint32_t o = 0; o < scene->object_count; o++)
         for (uint32_t t = 0; t < scene->objects[o].mesh->triangle_count; t++) {
-            cut c;
+            cut c = {.count = 0};
             if (gn_facing_of(context->volumes->facings, context->objects[o].first_triangle + t) != GN_CROSSES_NEAR)
                 continue;
             find_cut(&c, context, &scene->objects[o], t);
             for (int32_t i = 0; i < c.count; i++)
-                sum += gn_lid_along_view(context, c.corners[i].away, c.corners[i + 1 < c.count ? i + 1 : 0].away,
-                                         c.winding);
+                sum += gn_lid_along_view(context, &c.corners[i], &c.corners[i + 1 < c.count ? i + 1 : 0], c.winding);
         }
     return sum;
 }

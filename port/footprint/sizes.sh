@@ -6,7 +6,7 @@ set -u
 build=$1
 shift
 flash_limit=$((24 * 1024))
-volumes_flash_limit=$((32 * 1024))
+volumes_flash_limit=$((34 * 1024))
 ram_limit=$((96 * 1024))
 failed=0
 

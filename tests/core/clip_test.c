@@ -51,7 +51,8 @@ static void crossings_do_not_depend_on_who_asks(uint64_t cases)
         db = db < 0 ? db : -db - 1;
         view.near_w = between(64, 1 << 30);
         view.far_w = between(view.near_w, 0x7fffffff);
-        gn_place p = gn_plane_crossing(&view, &a, &b, da, db, plane), q = gn_plane_crossing(&view, &b, &a, db, da, plane);
+        gn_place p = gn_plane_crossing(&view, &a, &b, da, db, plane),
+                 q = gn_plane_crossing(&view, &b, &a, db, da, plane);
         different += p.c[0] != q.c[0] || p.c[1] != q.c[1] || p.c[2] != q.c[2];
         if (plane < 2)
             beside += p.c[2] != (plane ? view.far_w : view.near_w);
@@ -82,8 +83,7 @@ static gn_status random_view(gn_view *view, int kind, int32_t width, int32_t hei
     }
     int32_t near_depth = between(10, 300), far_depth = between(2000, 100000);
     if (kind == 2) {
-        gn_status status =
-            gn_spot_light(&light, eye, target, 0, GN_DEGREES(between(20, 120)), near_depth, far_depth);
+        gn_status status = gn_spot_light(&light, eye, target, 0, GN_DEGREES(between(20, 120)), near_depth, far_depth);
         return status == GN_OK ? gn_make_light_view(view, &light, width, height) : status;
     }
     gn_status status = gn_look_at(&camera, eye, target, up);
@@ -99,18 +99,19 @@ static int64_t magnitude(int64_t v)
     return v < 0 ? -v : v;
 }
 
-/* Every corner: within the range of depths, and within the guard band but for what rounding of a crossing moves it: two
- * view units of at least 64 in W. */
+/* Every corner: within the range of depths, but for two units of Q that a spot light may magnify by 2^11; and within
+ * the guard band but for what rounding of a crossing moves it: two view units of at least 64 in W. */
 static int stays_inside(const gn_view *view, const gn_polygon *polygon, int kind)
 {
     int32_t reach_x = view->affine ? GN_MAX_COORDINATE : view->guard * view->half_width;
     int32_t reach_y = view->affine ? GN_MAX_COORDINATE : view->guard * view->half_height;
     int32_t slack_x = 2 + reach_x / 32, slack_y = 2 + reach_y / 32;
     uint32_t least = kind < 2 ? 1 : GN_DEPTH_GUARD, most = kind < 2 ? 1u << 30 : 0x80000000u - GN_DEPTH_GUARD;
+    most += kind == 2 ? 1 << 12 : 1;
     for (int32_t i = 0; i < polygon->count; i++) {
         const gn_vertex *v = &polygon->v[i];
         if (magnitude(v->x - view->centre_x) > reach_x + slack_x ||
-            magnitude(v->y - view->centre_y) > reach_y + slack_y || v->depth < least || v->depth > most + 1)
+            magnitude(v->y - view->centre_y) > reach_y + slack_y || v->depth < least || v->depth > most)
             return 0;
     }
     return 1;

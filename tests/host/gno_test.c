@@ -190,8 +190,8 @@ static void a_closed_mesh_is_kept(void)
     packed_scene packed;
     const char *to_file[] = {sandbox_path("in-closed.scene"), "-o", sandbox_path("in-closed.gno"), 0};
     const char *to_header[] = {sandbox_path("in-closed.scene"), "-o", sandbox_path("in-closed.h"), 0};
-    snprintf(text, sizeof text, "%.*smesh in.ob3 surface closed color 1 1 1\n",
-             (int)(strstr(scene, "mesh") - scene), scene);
+    snprintf(text, sizeof text, "%.*smesh in.ob3 surface closed color 1 1 1\n", (int)(strstr(scene, "mesh") - scene),
+             scene);
     sandbox_write_text("in-closed.scene", text);
     sandbox_write_text("in.ob3", mesh);
     int done = sandbox_run(command_pack, to_file) == EXIT_DONE && sandbox_run(command_pack, to_header) == EXIT_DONE;
