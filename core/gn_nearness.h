@@ -3,7 +3,8 @@
  * A plane n . (X - V) = 0 seen through a pixel lies at 1/w = (n . d) / (n . (V - E)), where d is affine in the pixel:
  * so nearness is a linear expression, like Q. Q comes from corners snapped to the screen, and is good where a triangle
  * is; a volume's faces meet surfaces at any slope, and their crossing must be right to 1/256 pixel. So nearness comes
- * from the world's own integers, with 60 bits and a block exponent a plane, and is exact to 2^-50 of its range.
+ * from the world's own integers, with 60 bits and a block exponent a plane, and is exact to 2^-48 of its range
+ * or better.
  *
  * Perspective: 2^60 near / w. Orthographic: -2^32 w. Greater is nearer. */
 #ifndef GN_NEARNESS_H

@@ -42,8 +42,8 @@ int gn_light_side(const gn_light *light, int32_t world[3][3]);
 gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t *facings, uint32_t *casting,
                           uint32_t *crossing);
 
-/* Check the edges of all meshes and list those with a winding. GN_BAD_MESH: an edge that does not exist, or one that
- * is missing. */
+/* Check the edges of all meshes and list those with a winding. GN_BAD_MESH: an edge that does not exist or joins
+ * nothing, or fewer or more edges than the triangles ask for. */
 gn_status gn_list_silhouettes(const gn_scene *scene, const uint8_t *facings, uint32_t edge_bits, gn_silhouette *list,
                               uint32_t *count);
 

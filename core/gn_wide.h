@@ -1,5 +1,6 @@
 /* Scaled integers with 62 bits, for planes that must be good to a fraction of a pixel at any slope (gn_nearness.c):
- * m 2^e. Dot products are exact before they are cut; every other operation errs by 2^-59 of its result. Set-up only. */
+ * m 2^e. Dot products are exact before they are cut; a product or reciprocal errs by 2^-59 of itself, a sum
+ * by that of its larger term. Set-up only. */
 #ifndef GN_WIDE_H
 #define GN_WIDE_H
 
@@ -23,7 +24,7 @@ gn_wide gn_wide_negate(gn_wide a);
 /* 1 / a, a != 0. */
 gn_wide gn_wide_reciprocal(gn_wide a);
 
-/* Smallest n with |a| <= 2^n; -10000 for 0. */
+/* n with 2^(n-1) <= |a| <= 2^n; -10000 for 0. */
 int32_t gn_wide_bits(gn_wide a);
 
 /* round(a / 2^e), half up; held within +-2^62. */

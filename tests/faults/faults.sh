@@ -104,7 +104,8 @@ program_of() {
 }
 
 run_hashes() {
-    in_copy build/hashes/host-16.txt && awk -f tests/golden/compare.awk tests/golden/hashes.txt build/hashes/host-16.txt
+    in_copy build/hashes/host-16.txt && sed -n 's/^hash /16 /p' build/hashes/host-16.txt >hashes.got &&
+        grep '^16 ' tests/golden/hashes.txt | diff - hashes.got
 }
 
 run_test() {
