@@ -179,8 +179,8 @@ typedef struct gn_light {
  * GN_OUT_OF_RANGE: eye equals target, up is parallel to the view, or a coordinate is too large. */
 gn_status gn_look_at(gn_camera *camera, const int32_t eye[3], const int32_t target[3], const int32_t up[3]);
 
-/* Make the camera perspective. fovy: full vertical angle, 1/2 to 178 degrees; near and far as in gn_camera; their ratio and the
- * least near plane, which depends on the eye, are checked by the passes. GN_OUT_OF_RANGE: an angle or depth. */
+/* Make the camera perspective. fovy: full vertical angle, 1/2 to 178 degrees; near and far as in gn_camera; their ratio
+ * and the least near plane, which depends on the eye, are checked by the passes. GN_OUT_OF_RANGE: an angle or depth. */
 gn_status gn_perspective(gn_camera *camera, gn_angle fovy, int32_t near_depth, int32_t far_depth);
 
 /* Make the camera orthographic; ranges as in gn_camera. GN_OUT_OF_RANGE: a number outside its range. */
