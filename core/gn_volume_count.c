@@ -45,6 +45,20 @@ GN_INLINE void span_steep(const void *state, int32_t row, int32_t left, int32_t 
     span_compared(state, row, left, right, ((const gn_volume_target *)state)->plane.shift);
 }
 
+GN_INLINE void span_beyond(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    const gn_volume_target *t = state;
+    int32_t at = (row - t->row0) * t->stride + left - t->column0;
+    uint16_t *count = t->count + at;
+    const uint32_t *triangle = t->triangle + at;
+    int64_t value = t->plane.base + row * t->plane.dy + left * t->plane.dx;
+    int64_t limit = gn_floor_shift_64(t->limit, t->plane.shift);
+    GN_TALLY(t->tally->centres += (uint32_t)(right - left);)
+    for (int32_t i = 0; i < right - left; i++, value += t->plane.dx)
+        if (is_behind(value, t->reach.low, t->reach.high, limit) || triangle[i] == t->own[0])
+            count[i] = (uint16_t)(count[i] + t->weight);
+}
+
 /* ---- faces ----------------------------------------------------------------------------------------------------- */
 
 static GN_NOINLINE void walk_face(const gn_volume_target *t, const gn_rows *rows, const gn_window *window,
@@ -52,6 +66,8 @@ static GN_NOINLINE void walk_face(const gn_volume_target *t, const gn_rows *rows
 {
     if (by == GN_BEHIND)
         gn_walk(rows, window, rows->cut, span_behind, t);
+    else if (by == GN_BEYOND)
+        gn_walk(rows, window, rows->cut, span_beyond, t);
     else if (t->plane.shift == 0)
         gn_walk(rows, window, rows->cut, span_plain, t);
     else

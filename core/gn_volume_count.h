@@ -12,14 +12,16 @@ typedef struct gn_volume_target {
     const uint32_t *triangle;
     int32_t stride, row0, column0;
     uint32_t weight; /* what a covered pixel gains, modulo 2^16 */
-    uint32_t own[2]; /* the triangles on a side's edge: it is behind their points */
+    uint32_t own[2]; /* the triangles on a side's edge, or a cap itself: behind their points */
     gn_nearness plane;
     gn_reach reach; /* in units of the plane's value */
+    int64_t limit;  /* GN_BEYOND: nearness */
     GN_TALLY(gn_tally *tally;)
 } gn_volume_target;
 
-/* How a face stands to the visible points that it covers: behind them all, or they are compared. */
-typedef enum gn_depth_rule { GN_BEHIND, GN_COMPARED } gn_depth_rule;
+/* Where a face counts: in every pixel that it covers; where it is behind the visible point; or where it is beyond a
+ * limit, whatever the point. */
+typedef enum gn_depth_rule { GN_BEHIND, GN_COMPARED, GN_BEYOND } gn_depth_rule;
 
 /* One triangle of a face: it counts as it turns on the screen, +winding where it turns away. */
 void gn_count_piece(gn_volume_target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int32_t winding,

@@ -9,8 +9,8 @@
  *
  * Counting is z-fail: faces behind the visible point, +1 where they turn away from the camera, -1 where they turn to
  * it; what the near plane cuts off is before every point and never missed. Nothing is cut at the far plane. A cap is
- * behind the visible point of every pixel that it covers, or is the point's own triangle: no comparison (but where an
- * orthographic camera's near plane would cut it). A lid is at
+ * behind the visible point of every pixel that it covers, or is the point's own triangle: no comparison (but with the
+ * near plane of an orthographic camera, which cuts nothing here). A lid is at
  * infinity: no comparison. It is drawn as a fan from the light's axis over the silhouette edges.
  * Sides compare nearness (gn_nearness.h), held to the range of their corners: of the point, on its triangle's plane,
  * and of the side. A side over an edge of the point's own triangle is always behind: it lies on the other side of the
@@ -119,8 +119,9 @@ void gn_count_cap(gn_volume_region *r, const gn_outline *o, uint32_t identifier,
     }
     gn_cross(n, edge[0], edge[1]);
     gn_set_plane(&r->target, eye, n, gn_wide_dot(n, apart), &reach);
-    r->target.own[0] = r->target.own[1] = identifier;
-    gn_count_outline(&r->target, o, winding, r->window, GN_COMPARED);
+    r->target.own[0] = identifier;
+    r->target.limit = 1 - r->context->camera.near_depth * ((int64_t)1 << 32);
+    gn_count_outline(&r->target, o, winding, r->window, GN_BEYOND);
 }
 
 static GN_NOINLINE void draw_clipped_cap(gn_volume_region *r, uint32_t number, uint32_t triangle, int32_t winding)

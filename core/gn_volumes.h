@@ -42,7 +42,8 @@ typedef struct gn_volume_region {
     gn_volume_target target;
 } gn_volume_region;
 
-/* A cap that is clipped, or might lie before the near plane of an orthographic camera: there it is compared. */
+/* A cap that is clipped: behind the visible point wherever it is seen at all. An orthographic camera's near plane does
+ * not clip it, so there the part beyond that plane counts. */
 void gn_count_cap(gn_volume_region *r, const gn_outline *o, uint32_t identifier, int32_t world[3][3], int32_t winding);
 
 /* gn_volumes_spot.c: volumes of triangles that the near plane of a spot light cuts; the frustum; and how often the

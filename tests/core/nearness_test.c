@@ -101,12 +101,15 @@ static plane random_plane(const view *v)
         for (int i = 0; i < 3; i++)
             a[i] = p.from[i] + (int32_t)between(-1, 1);
     if (kind == 2) /* orthographic: along the view, but for as little */
-        for (int i = 0; i < 3; i++)
-            a[i] = (v->camera.forward[i] >> between(0, 20)) + (int32_t)between(-1, 1);
+        for (int i = 0; i < 3; i++) {
+            a[i] = v->camera.forward[i] / (1 << between(0, 20));
+            a[i] += (int32_t)between(-1, 1);
+        }
     gn_cross(p.n, a, b);
-    if (kind == 3)
-        for (int i = 0; i < 3; i++)
-            p.n[i] = between(-((int64_t)1 << 61), (int64_t)1 << 61) >> between(0, 60);
+    for (int i = 0; kind == 3 && i < 3; i++) {
+        p.n[i] = between(-((int64_t)1 << 61), (int64_t)1 << 61);
+        p.n[i] /= (int64_t)1 << between(0, 60);
+    }
     return p;
 }
 
@@ -226,8 +229,10 @@ static void check_plane(tally *c, const view *v, const plane *p)
     check_pixel(c, v, p, &t, &got, right, 0);
     check_pixel(c, v, p, &t, &got, 0, bottom);
     check_pixel(c, v, p, &t, &got, right, bottom);
-    for (int i = 0; i < 4; i++)
-        check_pixel(c, v, p, &t, &got, (int32_t)between(0, right), (int32_t)between(0, bottom));
+    for (int i = 0; i < 4; i++) {
+        int32_t x = (int32_t)between(0, right), y = (int32_t)between(0, bottom);
+        check_pixel(c, v, p, &t, &got, x, y);
+    }
 }
 
 static void planes_keep_their_bounds(uint64_t cases)
@@ -301,7 +306,8 @@ static void planes_all_but_edge_on_do_not_overflow(uint64_t cases)
         for (int k = 0; k < 3; k++)
             p.from[k] = (int32_t)between(-1, 1);
         if (between(0, 1)) { /* 1 from the eye, along the longest of normals */
-            p.n[0] = ((int64_t)1 << between(20, 61)) - between(0, 1);
+            p.n[0] = (int64_t)1 << between(20, 61);
+            p.n[0] -= between(0, 1);
             p.n[1] = between(0, 1) - p.n[0];
             p.from[0] = p.from[1] = 1;
             p.from[2] = 0;

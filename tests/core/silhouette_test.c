@@ -225,6 +225,20 @@ static void random_box(shape *s)
     add_box(s, low, high);
 }
 
+/* One number a declarator: the order of arguments is open. */
+static void add_random_vertex(shape *s, int32_t reach)
+{
+    int32_t x = between(-reach, reach), y = between(-reach, reach), z = between(-reach, reach);
+    add_vertex(s, x, y, z);
+}
+
+static void add_random_triangle(shape *s, uint32_t first, int32_t last)
+{
+    uint32_t a = first + (uint32_t)between(0, last), b = first + (uint32_t)between(0, last),
+             c = first + (uint32_t)between(0, last);
+    add_triangle(s, a, b, c);
+}
+
 /* Boxes, triangles of anything at few places, some twice, some without area: edges of every kind. */
 static shape random_shape(void)
 {
@@ -233,10 +247,9 @@ static shape random_shape(void)
         random_box(&s);
     uint32_t first = s.mesh.vertex_count;
     for (int i = 0; i < 6; i++)
-        add_vertex(&s, between(-3, 3), between(-3, 3), between(-3, 3));
+        add_random_vertex(&s, 3);
     for (int32_t i = between(0, 12); i > 0; i--)
-        add_triangle(&s, first + (uint32_t)between(0, 5), first + (uint32_t)between(0, 5),
-                     first + (uint32_t)between(0, 5));
+        add_random_triangle(&s, first, 5);
     if (s.mesh.triangle_count == 0)
         random_box(&s);
     pair_edges(&s.mesh);
@@ -265,9 +278,10 @@ static void random_crowd(crowd *c)
         c->edges += c->shapes[i].mesh.edge_count;
         if (between(0, 1))
             continue;
-        int32_t axis[3] = {1, between(-3, 3), between(-3, 3)};
+        int32_t y = between(-3, 3), z = between(-3, 3), axis[3] = {1, y, z};
+        int32_t width = between(0, 1) ? 65536 : -65536, depth = between(0, 3) ? 65536 : 0;
         gn_model_identity(&c->models[i]);
-        gn_model_scale(&c->models[i], between(0, 1) ? 65536 : -65536, 65536, between(0, 3) ? 65536 : 0);
+        gn_model_scale(&c->models[i], width, 65536, depth);
         gn_model_rotate(&c->models[i], axis, (gn_angle)tap_random(&random_state));
         c->objects[i].model = &c->models[i];
     }
@@ -800,7 +814,8 @@ static void lights_and_cameras_out_of_range_are_refused(void)
 static gn_status random_camera(gn_camera *camera, const gn_settings *settings)
 {
     static const int32_t up[3] = {0, 0, 1};
-    int32_t eye[3] = {between(-2000, 2000), between(-2000, 2000), between(-2000, 2000)}, target[3] = {1, 2, 3};
+    static const int32_t target[3] = {1, 2, 3};
+    int32_t x = between(-2000, 2000), y = between(-2000, 2000), z = between(-2000, 2000), eye[3] = {x, y, z};
     gn_status status = gn_look_at(camera, eye, target, up);
     if (status != GN_OK)
         return status;
@@ -811,7 +826,8 @@ static gn_status random_camera(gn_camera *camera, const gn_settings *settings)
 
 static void random_settings(gn_settings *settings)
 {
-    *settings = gn_default_settings((uint16_t)between(1, 40), (uint16_t)between(1, 40), 16);
+    uint16_t width = (uint16_t)between(1, 40), height = (uint16_t)between(1, 40);
+    *settings = gn_default_settings(width, height, 16);
     settings->shadow = GN_SHADOW_VOLUMES;
     settings->mask = (uint8_t)between(0, 1);
     settings->format = (uint8_t)between(0, 2);

@@ -46,7 +46,8 @@ static int64_t random_integer(int32_t bits)
 /* Of any size, as the operations leave them: also with -2^62 and 2^62. */
 static gn_wide random_wide(void)
 {
-    gn_wide a = gn_widen(random_integer(63), (int32_t)between(-400, 400));
+    int64_t v = random_integer(63);
+    gn_wide a = gn_widen(v, (int32_t)between(-400, 400));
     if (a.m && between(0, 7) == 0)
         a.m = a.m < 0 ? most : -most; /* what negation and rounding make of powers of two */
     return a;

@@ -87,11 +87,13 @@ in_copy() {
     make -s --no-print-directory OIIO=no CC="$compiler" CFLAGS="-O1 -UGN_COLOUR_CACHE" "$@" </dev/null
 }
 
-# What has to be compiled for a test: NAME, or NAME/DEPTH where that is not 16.
+# What has to be compiled for a test.
 program_of() {
-    name=${1%/*}
+    name=${1%%[:/]*}
     depth=16
-    [ "$name" = "$1" ] || depth=${1#*/}
+    case $1 in
+    */*) depth=${1#*/} ;;
+    esac
     case $name in
     hard) echo "build/host-$depth/tests/hard/hard" ;;
     hashes | *.sh) echo build/gnomon ;;
@@ -112,6 +114,10 @@ run_test() {
     case $1 in
     hashes) run_hashes ;;
     *.sh) timeout 120 sh "tests/host/${1%.sh}_test.sh" ;;
+    *:*)
+        # shellcheck disable=SC2046
+        timeout 120 "$(program_of "$1")" $(echo "${1#*:}" | tr : ' ')
+        ;;
     *) timeout 120 "$(program_of "$1")" ;;
     esac
 }

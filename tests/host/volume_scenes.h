@@ -31,15 +31,16 @@ typedef struct volume_mesh {
 
 typedef struct volume_scene {
     uint64_t random;
-    int32_t size;    /* of the world: things lie within about +-size */
-    int32_t grid;    /* not 0: all coordinates are multiples of it */
-    int inside;      /* the camera stands where a solid is */
+    int32_t size; /* of the world: things lie within about +-size */
+    int32_t grid; /* not 0: all coordinates are multiples of it */
+    int inside;   /* the camera stands where a solid is */
     volume_mesh meshes[VOLUME_MOST_MESHES];
     gn_object objects[VOLUME_MOST_MESHES];
     packed_scene packed;
 } volume_scene;
 
-/* least to most, both included. */
+/* least to most, both included. One number a statement or declarator: the order of arguments is open, and a seed makes
+ * the same scene with every compiler. */
 static int32_t volume_between(volume_scene *s, int64_t least, int64_t most)
 {
     return (int32_t)(least + (int64_t)(tap_random(&s->random) % ((uint64_t)(most - least) + 1)));
@@ -218,8 +219,10 @@ static void volume_choose_model(volume_scene *s, volume_mesh *m, gn_object *obje
     for (int i = 0; i < 3; i++)
         axis[i] = volume_between(s, 1, 100);
     gn_model_identity(&m->model);
-    if (volume_one_in(s, 2))
-        gn_model_scale(&m->model, volume_one_in(s, 2) ? -65536 : 65536, volume_between(s, 30000, 65536), 65536);
+    if (volume_one_in(s, 2)) {
+        int32_t height = volume_between(s, 30000, 65536), width = volume_one_in(s, 2) ? -65536 : 65536;
+        gn_model_scale(&m->model, width, height, 65536);
+    }
     gn_model_rotate(&m->model, axis, (gn_angle)tap_random(&s->random));
     gn_model_translate(&m->model, volume_between(s, -s->size / 4, s->size / 4), 0, 0);
     object->model = &m->model;
@@ -305,8 +308,9 @@ static int volume_aim_camera(volume_scene *s)
         return 0;
     if (volume_one_in(s, 4)) {
         int32_t near_depth = volume_between(s, -3 * (int64_t)size, size / 2);
-        return gn_orthographic(c, volume_between(s, size / 4, 3 * (int64_t)size), near_depth,
-                               near_depth + volume_between(s, size + 64, 8 * (int64_t)size)) == GN_OK;
+        int32_t depth = volume_between(s, size + 64, 8 * (int64_t)size);
+        int32_t half_height = volume_between(s, size / 4, 3 * (int64_t)size);
+        return gn_orthographic(c, half_height, near_depth, near_depth + depth) == GN_OK;
     }
     gn_angle opening = (gn_angle)GN_DEGREES(10) + (gn_angle)(tap_random(&s->random) % GN_DEGREES(120));
     if (gn_perspective(c, opening, 1000, 10000) != GN_OK)
@@ -368,10 +372,12 @@ static TAP_UNUSED int volume_scene_make(volume_scene *s, uint64_t seed)
 {
     memset(s, 0, sizeof *s);
     s->random = seed * UINT64_C(0x2545f4914f6cdd1d) + 1;
-    s->size = (int32_t)(((int64_t)volume_between(s, 64, 127) << volume_between(s, 2, 15)));
+    s->size = volume_between(s, 64, 127);
+    s->size *= 1 << volume_between(s, 2, 15);
     s->grid = volume_one_in(s, 4) ? s->size / 8 : 0;
-    s->packed.settings = gn_default_settings((uint16_t)volume_between(s, 1, VOLUME_MOST_SIZE),
-                                             (uint16_t)volume_between(s, 1, VOLUME_MOST_SIZE), 16);
+    uint16_t height = (uint16_t)volume_between(s, 1, VOLUME_MOST_SIZE);
+    uint16_t width = (uint16_t)volume_between(s, 1, VOLUME_MOST_SIZE);
+    s->packed.settings = gn_default_settings(width, height, 16);
     s->packed.settings.format = GN_NO_COLOUR;
     s->packed.settings.mask = 1;
     s->packed.settings.shadow = GN_SHADOW_VOLUMES;
