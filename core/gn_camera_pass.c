@@ -42,8 +42,6 @@ gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker
         return status;
     gn_worker *w = &context->workers[worker];
     uint32_t width = pixels->width;
-    if (context->settings.format == GN_NO_COLOUR)
-        colour = 0;
     gn_rasterise_region(context, w, &window);
     for (uint32_t row = 0; row < pixels->height; row++) {
         gn_shade_row(context, w->q + row * width, window.column0, window.row0 + (int32_t)row, (int32_t)width);

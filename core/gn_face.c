@@ -38,6 +38,28 @@ static gn_place ray_crossing(const gn_view *view, const gn_place *a, const gn_pl
     return p;
 }
 
+static int is_far(const gn_place *p)
+{
+    int64_t most = (int64_t)1 << 44;
+    for (int i = 0; i < 3; i++)
+        if (p->c[i] > most || p->c[i] < -most)
+            return 1;
+    return 0;
+}
+
+/* gn_plane_crossing for places beyond 2^44, as only a spot light's frustum has them in an affine view. */
+static gn_place far_crossing(const gn_place *a, const gn_place *b, int64_t da, int64_t db)
+{
+    gn_place p;
+    gn_wide from_a = gn_widen(da < 0 ? -da : da, 0), from_b = gn_widen(db < 0 ? -db : db, 0);
+    gn_wide whole = gn_wide_reciprocal(gn_wide_add(from_a, from_b));
+    for (int i = 0; i < 3; i++)
+        p.c[i] = gn_wide_round(gn_wide_add(gn_wide_multiply(gn_widen(a->c[i], 0), gn_wide_multiply(from_b, whole)),
+                                           gn_wide_multiply(gn_widen(b->c[i], 0), gn_wide_multiply(from_a, whole))),
+                               0);
+    return p;
+}
+
 static void keep(gn_face *f, const gn_place *place, uint8_t infinite)
 {
     if (f->count == GN_CLIP_VERTICES) /* a convex polygon gains at most one vertex a plane, rounding aside */
@@ -58,7 +80,9 @@ static void clip_face(const gn_view *view, const gn_face *in, gn_face *out, int 
         if (!((da > 0 && db < 0) || (da < 0 && db > 0)))
             continue;
         gn_place p;
-        if (in->infinite[i] == in->infinite[next])
+        if (is_far(a) || is_far(b))
+            p = far_crossing(a, b, da, db);
+        else if (in->infinite[i] == in->infinite[next])
             p = gn_plane_crossing(view, a, b, da, db, in->infinite[i] ? GN_CLIP_PLANES : plane);
         else if (in->infinite[i])
             p = ray_crossing(view, b, a, db, da, plane);
@@ -68,14 +92,17 @@ static void clip_face(const gn_view *view, const gn_face *in, gn_face *out, int 
     }
 }
 
-/* Places beyond 30 bits, which only perspective faces have, keep their proportions. */
-static void shorten(gn_place *p)
+/* Places beyond 30 bits, which only perspective faces have, keep their proportions, rounding aside. */
+static void shorten(const gn_view *view, gn_place *p)
 {
     int64_t limit = (int64_t)1 << 30;
     while (p->c[0] > limit || p->c[0] < -limit || p->c[1] > limit || p->c[1] < -limit || p->c[2] > limit)
         for (int i = 0; i < 3; i++)
             p->c[i] = gn_floor_shift_64(p->c[i] + 1, 1);
     p->c[2] = p->c[2] < 1 ? 1 : p->c[2];
+    int64_t reach = view->guard * p->c[2];
+    p->c[0] = gn_clamp(p->c[0], -reach, reach);
+    p->c[1] = gn_clamp(p->c[1], -reach, reach);
 }
 
 /* Some corner lies beyond the plane: else clipping there changes nothing. */
@@ -120,7 +147,7 @@ void gn_project_face(const gn_view *view, const gn_face *f, gn_outline *out)
         if (view->affine && last->infinite[i])
             continue; /* rounding left no direction */
         if (!view->affine)
-            shorten(&place);
+            shorten(view, &place);
         gn_view_project_inside(view, &place, &out->v[out->count++]);
     }
 }
@@ -136,10 +163,11 @@ gn_place gn_place_direction(const gn_view *view, const int32_t d[3])
                           -row->shift);
     }
     if (view->affine) {
-        /* As if the view were turned by 2^-24: two directions in one plane with the view, one to either side of it,
-         * would be opposite on the screen, and rounding would choose the half that a side between them covers. */
+        /* As if the view were turned by 2^-30, the rounding of its axes: two directions in one plane with the view, one
+         * to either side of it, would be opposite on the screen, and rounding would choose the half that a side between
+         * them covers. */
         gn_wide turned = sum[2];
-        turned.e += view->row[2].shift - view->row[0].shift - 24;
+        turned.e += view->row[2].shift - view->row[0].shift - 30;
         sum[0] = gn_wide_add(sum[0], turned);
         sum[1] = gn_wide_add(sum[1], gn_wide_multiply(turned, gn_widen(40503, -16)));
     }

@@ -43,9 +43,4 @@ void gn_make_side(gn_outline *o, const gn_view *view, const gn_light *light, con
 /* Its part of the lid, from the light's axis. An orthographic camera sees all of infinity in one point. */
 void gn_make_lid(gn_outline *o, const gn_view *view, const gn_place *axis, const gn_corner *a, const gn_corner *b);
 
-GN_INLINE int64_t gn_clamp(int64_t v, int64_t low, int64_t high)
-{
-    return v < low ? low : v > high ? high : v;
-}
-
 #endif

@@ -69,6 +69,12 @@ GN_INLINE int64_t gn_floor_shift_64(int64_t v, unsigned n)
 }
 #endif
 
+/* v held between low and high. */
+GN_INLINE int64_t gn_clamp(int64_t v, int64_t low, int64_t high)
+{
+    return v < low ? low : v > high ? high : v;
+}
+
 /* Number of leading zero bits; v != 0. */
 GN_INLINE unsigned gn_leading_zeros(uint32_t v)
 {

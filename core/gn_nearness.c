@@ -57,7 +57,9 @@ void gn_make_nearness(gn_nearness *plane, const gn_eye *eye, const int64_t n[3],
                           larger(gn_wide_bits(dx) + eye->width_bits - 1, gn_wide_bits(dy) + eye->height_bits - 1)) +
                    2;
     int32_t shift = larger(bits - 62, 0);
-    plane->shift = (uint8_t)(shift > 63 ? 63 : shift);
+    if (shift > 62) /* as good as edge-on */
+        return;
+    plane->shift = (uint8_t)shift;
     plane->dx = gn_wide_round(dx, shift);
     plane->dy = gn_wide_round(dy, shift);
     plane->base =

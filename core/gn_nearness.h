@@ -28,7 +28,7 @@ typedef struct gn_eye {
 /* value(i, j) = base + i dx + j dy, within +-2^62 all over the image; nearness is value 2^shift. */
 typedef struct gn_nearness {
     int64_t base, dx, dy;
-    uint8_t shift; /* 0 to 63: the steeper the plane, the greater */
+    uint8_t shift; /* 0 to 62: the steeper the plane, the greater */
 } gn_nearness;
 
 /* The range of nearness of the corners of a face: what rounding of their places moves beyond it is held. */

@@ -97,7 +97,8 @@ static gn_status check_scene(const gn_scene *scene, gn_plan *plan, counts *c)
     c->triangle_bits = bits_for(most);
     c->edge_bits = bits_for(most_edges);
     /* the highest identifier is kept for "no triangle" */
-    if (bits_for(scene->object_count + 1) + c->triangle_bits > 32 || triangles >= (1u << 28) || vertices >= (1u << 28))
+    if (bits_for(scene->object_count + 1) + c->triangle_bits > 32 || triangles >= (1u << 28) ||
+        vertices >= (1u << 28) || edges >= (1u << 30))
         return GN_TOO_MANY;
     plan->triangles = (uint32_t)triangles;
     plan->vertices = (uint32_t)vertices;

@@ -36,6 +36,8 @@ void gn_colour_region_row(const gn_context *context, gn_worker *worker, void *co
                           uint32_t width)
 {
     uint32_t from = row * width, pixel_bytes = context->settings.format == GN_RGB888 ? 3 : 2, tested = 0;
+    if (context->settings.format == GN_NO_COLOUR)
+        colour = 0;
     uint32_t seen =
         gn_colour_row(context, worker, worker->q + from, worker->triangle + from, (int32_t)width,
                       colour ? (uint8_t *)colour + (size_t)from * pixel_bytes : 0, mask ? mask + from : 0, &tested);

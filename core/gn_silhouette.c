@@ -47,11 +47,10 @@ static gn_facing find_facing(const gn_light *light, int32_t world[3][3])
     return side > 0 ? GN_FACES_LIGHT : GN_FACES_AWAY;
 }
 
-gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t *facings, uint32_t *casting,
-                          uint32_t *crossing)
+gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t *facings, uint32_t *crossing)
 {
     uint32_t number = 0;
-    *casting = *crossing = 0;
+    *crossing = 0;
     for (uint32_t o = 0; o < scene->object_count; o++) {
         const gn_object *object = &scene->objects[o];
         if (object->model && gn_check_model(object->model) != GN_OK)
@@ -64,7 +63,6 @@ gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t 
                 if (gn_world_position(object, index[i], world[i]) != GN_OK)
                     return GN_OUT_OF_RANGE;
             uint32_t facing = find_facing(light, world);
-            *casting += facing != GN_CASTS_NOTHING;
             *crossing += facing == GN_CROSSES_NEAR;
             facings[number >> 2] = (uint8_t)((facings[number >> 2] & ~(3u << shift)) | facing << shift);
         }
@@ -116,6 +114,8 @@ static int joins(const gn_mesh *mesh, const gn_mesh_edge *edge)
 
 static gn_status check_edges(const gn_mesh *mesh)
 {
+    if ((uintptr_t)mesh->edges % 4)
+        return GN_BAD_MESH;
     uint32_t last = 3 * mesh->triangle_count, count = 0;
     if (mesh->edge_count && !mesh->edges)
         return GN_BAD_ARGUMENT;

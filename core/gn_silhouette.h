@@ -39,8 +39,7 @@ GN_INLINE int32_t gn_facing_sign(gn_facing facing)
 int gn_light_side(const gn_light *light, int32_t world[3][3]);
 
 /* Fill facings (2 bits a triangle). *crossing: how many cross the near plane. GN_OUT_OF_RANGE: a vertex or a model. */
-gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t *facings, uint32_t *casting,
-                          uint32_t *crossing);
+gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t *facings, uint32_t *crossing);
 
 /* Check the edges of all meshes and list those with a winding. GN_BAD_MESH: an edge that does not exist or joins
  * nothing, or fewer or more edges than the triangles ask for. */

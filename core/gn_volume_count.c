@@ -52,7 +52,7 @@ GN_INLINE void span_beyond(const void *state, int32_t row, int32_t left, int32_t
     uint16_t *count = t->count + at;
     const uint32_t *triangle = t->triangle + at;
     int64_t value = t->plane.base + row * t->plane.dy + left * t->plane.dx;
-    int64_t limit = gn_floor_shift_64(t->limit, t->plane.shift);
+    int64_t limit = gn_floor_shift_64(t->limit, t->plane.shift) + (t->plane.shift > 0);
     GN_TALLY(t->tally->centres += (uint32_t)(right - left);)
     for (int32_t i = 0; i < right - left; i++, value += t->plane.dx)
         if (is_behind(value, t->reach.low, t->reach.high, limit) || triangle[i] == t->own[0])

@@ -235,7 +235,6 @@ gn_status gn_volumes_light(gn_context *context, const gn_light *light)
     if (!context->volumes)
         return GN_UNSUPPORTED;
     gn_volumes *volumes = context->volumes;
-    uint32_t casting;
     context->phase = GN_PHASE_NONE;
     context->light = *light;
     if (light->kind != GN_SPOT && light->kind != GN_DIRECTIONAL)
@@ -248,7 +247,7 @@ gn_status gn_volumes_light(gn_context *context, const gn_light *light)
         if (light->forward[i] > (1 << 30) + 16 || light->forward[i] < -(1 << 30) - 16)
             status = GN_OUT_OF_RANGE;
     if (status == GN_OK)
-        status = gn_find_facings(context->scene, light, volumes->facings, &casting, &volumes->crossing);
+        status = gn_find_facings(context->scene, light, volumes->facings, &volumes->crossing);
     if (status == GN_OK)
         status = gn_list_silhouettes(context->scene, volumes->facings, volumes->edge_bits, volumes->silhouettes,
                                      &volumes->silhouette_count);
@@ -370,8 +369,6 @@ gn_status gn_volumes_region(gn_context *context, uint32_t number, uint32_t worke
     gn_worker *w = &context->workers[worker];
     gn_volumes_worker *v = &context->volumes->workers[worker];
     int32_t width = pixels->width;
-    if (context->settings.format == GN_NO_COLOUR)
-        colour = 0;
     gn_rasterise_region(context, w, &window);
     for (int32_t row = 0; row < pixels->height; row++)
         find_points(context, v, w->triangle + row * width, v->point + row * width, window.column0, window.row0 + row,

@@ -19,28 +19,19 @@ static int64_t beyond_near(const gn_light *light, const int32_t world[3])
     return w - gn_multiply(light->near_depth, 1 << 30);
 }
 
-static int32_t bits_of(int64_t v)
-{
-    return v ? 64 - (int32_t)gn_leading_zeros_64((uint64_t)(v < 0 ? ~v : v) | 1) : 0;
-}
-
 /* Where the edge crosses the plane: the same for both triangles on it. */
 static void set_cut(gn_corner *c, const gn_view *view, const gn_corner *a, const gn_corner *b, int64_t da, int64_t db)
 {
     c->place = gn_plane_crossing(view, &a->place, &b->place, da, db, GN_CLIP_PLANES);
-    int64_t to_a = da < 0 ? -da : da, to_b = db < 0 ? -db : db, sum[3];
-    while ((to_a | to_b) >> 31) {
-        to_a >>= 1;
-        to_b >>= 1;
-    }
+    gn_wide to_a = gn_widen(da < 0 ? -da : da, 0), to_b = gn_widen(db < 0 ? -db : db, 0), sum[3];
     int32_t bits = 0;
     for (int i = 0; i < 3; i++) {
-        sum[i] = gn_multiply(a->away[i], (int32_t)to_b) + gn_multiply(b->away[i], (int32_t)to_a);
-        bits = bits_of(sum[i]) > bits ? bits_of(sum[i]) : bits;
+        sum[i] = gn_wide_add(gn_wide_multiply(gn_widen(a->away[i], 0), to_b),
+                             gn_wide_multiply(gn_widen(b->away[i], 0), to_a));
+        bits = gn_wide_bits(sum[i]) > bits ? gn_wide_bits(sum[i]) : bits;
     }
     for (int i = 0; i < 3; i++)
-        c->away[i] = (int32_t)(bits > 30 ? gn_floor_shift_64(sum[i], (unsigned)(bits - 30))
-                                         : sum[i] * ((int64_t)1 << (30 - bits)));
+        c->away[i] = (int32_t)gn_wide_round(sum[i], bits - 30);
     c->direction = gn_place_direction(view, c->away);
 }
 

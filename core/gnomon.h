@@ -54,8 +54,8 @@ typedef uint32_t gn_depth;
 #error "GN_DEPTH_BITS must be 16 or 32"
 #endif
 
-/* 1: count triangles, texels and pixels (a few additions a span); 0: gn_get_statistics reports zeros but for map_bytes,
- * at no cost. */
+/* 1: count triangles, texels and pixels (a few additions a span); 0: gn_get_statistics reports zeros but for map_bytes
+ * and silhouette_edges, at no cost. */
 #ifndef GN_STATISTICS
 #define GN_STATISTICS 0
 #endif
@@ -69,7 +69,7 @@ typedef enum gn_status {
     GN_OUT_OF_RANGE = -3, /* a number outside the range that its comment states */
     GN_TOO_SMALL = -4,    /* the memory block is smaller than gn_plan.bytes */
     GN_MISALIGNED = -5,   /* the memory block is not aligned to GN_ALIGNMENT */
-    GN_BAD_MESH = -6,     /* an index beyond the vertices, or an index size other than 2 and 4 */
+    GN_BAD_MESH = -6,     /* an index beyond the vertices, an index size other than 2 and 4, or wrong edges */
     GN_TOO_MANY = -7,     /* objects x triangles do not fit 32-bit identifiers, or a size overflows */
     GN_UNSUPPORTED = -8,  /* settings that make no sense together */
     GN_NOT_READY = -9     /* called out of order, for instance a camera region before gn_camera_begin */
@@ -254,14 +254,14 @@ typedef struct gn_settings {
     uint16_t width, height;         /* image, 1 to GN_MAX_SIZE */
     uint16_t map_width, map_height; /* shadow map, 1 to GN_MAX_SIZE */
     uint16_t region_width,
-        region_height; /* camera regions; 0: chosen. Trades RAM (8 bytes a pixel and worker) against time */
+        region_height; /* camera regions; 0: chosen. Trades RAM (8 bytes a pixel and worker; volumes 18) against time */
     uint16_t map_rows; /* rows of a light region; 0: the whole map. Trades RAM of the second layer against time */
     uint8_t cull, layers, surface; /* gn_cull, gn_layers, gn_surface */
     uint8_t format;                /* gn_format */
     uint8_t mask;                  /* 1: also deliver masks: 0 shadowed, 254 lit, 255 no surface */
     uint8_t workers;               /* how many regions may be rendered at once, 1 to 64 */
-    uint8_t shadow;                /* gn_shadow; with volumes map sizes, cull, layers, surface and bias say nothing */
-    gn_bias bias;                  /* of GN_CONSTANT, GN_DUAL and GN_MIXED */
+    uint8_t shadow; /* gn_shadow; with volumes map sizes, cull, layers, surface and bias are checked and say nothing */
+    gn_bias bias;   /* of GN_CONSTANT, GN_DUAL and GN_MIXED */
 } gn_settings;
 
 /* Second depth with everything else left to gn_make_plan: no bias to choose for closed meshes. */
@@ -283,7 +283,8 @@ typedef struct gn_plan {
 
 typedef struct gn_context gn_context;
 
-/* Say what the scene needs, and check every mesh (indices, ranges); nothing is written but *plan. */
+/* Say what the scene needs, and check every mesh (indices, ranges); nothing is written but *plan. GN_UNSUPPORTED:
+ * settings that make no sense together, or volumes and a mesh without edges. */
 gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings);
 
 /* Take the block; the scene (not the settings) must outlive the context. Nothing outside the block is ever written.
@@ -334,8 +335,10 @@ gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker
 
 /* ---- shadow volumes (settings.shadow GN_SHADOW_VOLUMES) ---------------------------------------------------------- */
 
-/* In place of the light pass: decide exactly which way every triangle faces, and find the silhouette edges.
- * GN_UNSUPPORTED: the context was not made for volumes; GN_OUT_OF_RANGE: as for gn_light_pass. */
+/* In place of the light pass: decide exactly which way every triangle faces, and find the silhouette edges. To be done
+ * anew whenever a model has changed; none may change before the last region of a frame is done. GN_UNSUPPORTED: the
+ * context was not made for volumes (and the light and camera passes, where it was); GN_BAD_MESH: edges that do not
+ * exist, join nothing, or are too few or too many; GN_BAD_ARGUMENT, GN_OUT_OF_RANGE: as for gn_light_pass. */
 gn_status gn_volumes_light(gn_context *context, const gn_light *light);
 
 /* In place of the camera pass and its steps; same arguments and statuses. A pixel is shadowed where the volumes that

@@ -77,11 +77,14 @@ static int measure(frame *f, const packed_scene *packed, times *t, problem *why)
 
 static void print(const frame *f, const times *t)
 {
-    printf("image %d x %d, map %d x %d, %u triangles, virtual surface %s, layers %s, cull %s, region %d x %d, workers "
-           "%d, runs %d\n",
-           f->settings.width, f->settings.height, f->settings.map_width, f->settings.map_height,
-           (unsigned)f->plan.triangles, render_surface_name(f->settings.surface), render_layers_name(f->plan.layers),
-           render_cull_name(f->plan.cull), f->plan.region_width, f->plan.region_height, f->settings.workers, t->count);
+    const gn_settings *s = &f->settings;
+    printf("image %d x %d, %u triangles, shadow %s", s->width, s->height, (unsigned)f->plan.triangles,
+           render_shadow_name(s));
+    if (s->shadow == GN_SHADOW_MAP)
+        printf(" %d x %d, virtual surface %s, layers %s, cull %s", s->map_width, s->map_height,
+               render_surface_name(s->surface), render_layers_name(f->plan.layers), render_cull_name(f->plan.cull));
+    printf(", region %d x %d, workers %d, runs %d\n", f->plan.region_width, f->plan.region_height, s->workers,
+           t->count);
     printf("pass      median ms   least ms\n");
     printf("light    %10.3f %10.3f\n", median(t->light, t->count), t->light[0]);
     printf("camera   %10.3f %10.3f\n", median(t->camera, t->count), t->camera[0]);
@@ -96,6 +99,19 @@ static void write_pass(json *w, const char *name, const double *sorted, int coun
     json_close(w);
 }
 
+static void write_shadow(json *w, const frame *f)
+{
+    const gn_settings *s = &f->settings;
+    json_string(w, "shadow", render_shadow_name(s));
+    if (s->shadow != GN_SHADOW_MAP)
+        return;
+    json_integer(w, "map_width", s->map_width);
+    json_integer(w, "map_height", s->map_height);
+    json_string(w, "virtual_surface", render_surface_name(s->surface));
+    json_string(w, "layers", render_layers_name(f->plan.layers));
+    json_string(w, "cull", render_cull_name(f->plan.cull));
+}
+
 static int write_json(const char *path, const char *scene, const frame *f, const times *t, problem *why)
 {
     file_output output;
@@ -106,12 +122,8 @@ static int write_json(const char *path, const char *scene, const frame *f, const
     json_string(&w, "scene", scene);
     json_integer(&w, "width", f->settings.width);
     json_integer(&w, "height", f->settings.height);
-    json_integer(&w, "map_width", f->settings.map_width);
-    json_integer(&w, "map_height", f->settings.map_height);
     json_integer(&w, "triangles", f->plan.triangles);
-    json_string(&w, "virtual_surface", render_surface_name(f->settings.surface));
-    json_string(&w, "layers", render_layers_name(f->plan.layers));
-    json_string(&w, "cull", render_cull_name(f->plan.cull));
+    write_shadow(&w, f);
     json_integer(&w, "region_width", f->plan.region_width);
     json_integer(&w, "region_height", f->plan.region_height);
     json_integer(&w, "workers", f->settings.workers);
@@ -135,8 +147,9 @@ static int bench(packed_scene *packed, frame *f, times *t, const char *scene, co
     long runs = 21;
     gn_settings settings;
     if ((values[RUNS] && option_number("--runs", values[RUNS], 1, 10000, &runs, why)) ||
-        (values[JSON] && file_can_write(values[JSON], why)) || packed_read(packed, scene, 0, why) ||
-        render_options_read(&settings, packed, values, why) || work_options_read(&settings, values + WORK, why))
+        (values[JSON] && file_can_write(values[JSON], why)) || file_check_distinct(values + JSON, 1, &scene, 1, why) ||
+        packed_read(packed, scene, 0, why) || render_options_read(&settings, packed, values, why) ||
+        work_options_read(&settings, values + WORK, why))
         return -1;
     if (!settings.region_width)
         use_large_regions(&settings);

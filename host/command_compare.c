@@ -28,7 +28,9 @@ static const option table[OPTION_COUNT] = {
      "wrong pixels at most so far from the true shadow edge count as its edge band,\n"
      "all others as interior; default 2"},
     {"--max-error", "E", "per cent of false shadow and false light together that still counts as\nequal; default 0"},
-    {"--max-coverage", "C", "per cent of pixels that see a surface in one mask only, as above; default 1"},
+    {"--max-coverage", "C",
+     "per cent of pixels that see a surface in one mask only, as above; default 1.\n"
+     "Where TRUTH sees none, one such pixel is a difference"},
     {"--allow-vacuous", 0, "accept a truth without a lit or without a shadowed pixel"},
     {"--difference", "FILE",
      "picture: false shadow red, false light blue, surface in one mask only\n"
@@ -202,9 +204,11 @@ static int read_request(request *r, const command_line *line, const char *const 
         read_number("--max-error", values[MAX_ERROR], 100, &r->max_error, why) ||
         read_number("--max-coverage", values[MAX_COVERAGE], 100, &r->max_coverage, why))
         return -1;
-    if (r->difference && image_can_write(r->difference, 3, IMAGE_U8, why))
+    const char *const inputs[] = {r->mask, r->truth, r->near}, *const outputs[] = {r->difference, r->json};
+    if ((r->difference && image_can_write(r->difference, 3, IMAGE_U8, why)) ||
+        (r->json && file_can_write(r->json, why)))
         return -1;
-    return r->json ? file_can_write(r->json, why) : 0;
+    return file_check_distinct(outputs, 2, inputs, 3, why);
 }
 
 typedef struct images {
@@ -274,7 +278,8 @@ static int compare(const request *r, const images *im, problem *why)
     if (check_sense(r, &c, why))
         return EXIT_BAD_INPUT;
     const comparison_figures *f = &c.not_near;
-    int equal = comparison_percent(f, f->together.pixels) <= r->max_error &&
+    /* No per cent can be given where the truth sees nothing: one pixel that the mask sees is too many. */
+    int equal = (f->surface || !f->coverage) && comparison_percent(f, f->together.pixels) <= r->max_error &&
                 comparison_percent(f, f->coverage) <= r->max_coverage;
     if ((r->difference && write_difference(r->difference, &input, why)) ||
         (r->json && write_json(r->json, &c, equal, why)))

@@ -60,7 +60,9 @@ static void help(void)
          "asked for; at least one output is needed. Example:\n\n"
          "  gnomon render lshape.scene -o lshape.ppm --method dual --map 512\n");
     options_help(table, OPTION_COUNT, stdout);
-    puts("\nExit status: 0 done, 2 bad usage or input (then nothing is written).");
+    puts("\nExit status: 0 done, 2 bad usage or input, or an output cannot be written (no file is left half-written; "
+         "those\n"
+         "written before it stay).");
 }
 
 static int wants_layers(const job *j)
@@ -91,7 +93,9 @@ static int check_outputs(job *j)
         if (path && image_can_write(path, 1, depth_sample(path), &j->why))
             return -1;
     }
-    return values[OUTPUT_STATS] ? file_can_write(values[OUTPUT_STATS], &j->why) : 0;
+    if (values[OUTPUT_STATS] && file_can_write(values[OUTPUT_STATS], &j->why))
+        return -1;
+    return file_check_distinct(values + OUTPUT_IMAGE, OUTPUT_STATS - OUTPUT_IMAGE + 1, &j->scene_path, 1, &j->why);
 }
 
 static void say_what_was_read(const job *j)

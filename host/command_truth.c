@@ -62,7 +62,9 @@ static void help(void)
          "                 small, so that nothing slips through a closed mesh\n"
          "  shadow-near    something is in the way just on the light's near plane: shadowed\n"
          "  shadow-within  the way runs along within the plane of a triangle: not shadowed by it\n"
-         "\nExit status: 0 done, 2 bad usage or input (then nothing is written).");
+         "\nExit status: 0 done, 2 bad usage or input, or an output cannot be written (no file is left half-written; "
+         "those\n"
+         "written before it stay).");
 }
 
 /* ---- outputs --------------------------------------------------------------------------------------------------- */
@@ -80,7 +82,9 @@ static int check_outputs(request *r)
             return -1;
     if (values[TIES_FILE] && is_list(values[TIES_FILE]) && file_can_write(values[TIES_FILE], &r->why))
         return -1;
-    return values[JSON_FILE] ? file_can_write(values[JSON_FILE], &r->why) : 0;
+    if (values[JSON_FILE] && file_can_write(values[JSON_FILE], &r->why))
+        return -1;
+    return file_check_distinct(values + MASK_FILE, JSON_FILE - MASK_FILE + 1, &r->scene, 1, &r->why);
 }
 
 static int write_picture(request *r, const char *path, uint8_t *pixels)

@@ -54,7 +54,8 @@ typedef struct comparison {
 /* Compare. Takes at most 9 bytes a pixel while it works. */
 void comparison_make(comparison *c, const comparison_input *input);
 
-/* count in per cent of the pixels that see a surface in truth; 0 if none does. */
+/* count in per cent of the pixels that see a surface in truth; 0 if none does, whatever the count: who sets a limit
+ * looks at f->surface first. */
 double comparison_percent(const comparison_figures *f, uint64_t count);
 
 /* The difference in colours: false shadow red, false light blue; a surface in one mask only magenta; any of these near

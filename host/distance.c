@@ -16,12 +16,13 @@ static void go_down(uint16_t *columns, const uint8_t *edges, uint32_t width, uin
 {
     size_t places = 2 * (size_t)width - 1;
     for (uint32_t y = 0; y < height; y++) {
-        uint16_t *row = columns + y * places, *above = row - places;
-        const uint8_t *here = edges + (size_t)y * width;
+        uint16_t *row = columns + y * places;
+        const uint16_t *above = y ? row - places : 0;
+        const uint8_t *here = edges + (size_t)y * width, *upper = y ? here - width : 0;
         for (size_t u = 0; u < places; u++) {
-            int below_above = !(u & 1) && y && (here[u / 2 - width] & DISTANCE_EDGE_BELOW);
+            int below_above = !(u & 1) && upper && (upper[u / 2] & DISTANCE_EDGE_BELOW);
             int right = (u & 1) && (here[u / 2] & DISTANCE_EDGE_RIGHT);
-            int farther = !y || above[u] == FAR ? FAR : above[u] + 2;
+            int farther = !above || above[u] == FAR ? FAR : above[u] + 2;
             row[u] = (uint16_t)(right ? 0 : below_above ? 1 : farther);
         }
     }

@@ -73,6 +73,53 @@ int file_can_write(const char *path, problem *why)
     return result;
 }
 
+static const char *last_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* Status of the folder that the path's last name is in. */
+static int folder_status(const char *path, struct stat *status)
+{
+    size_t length = (size_t)(last_name(path) - path);
+    char *folder = memory_take(length + 2, 1);
+    memcpy(folder, length ? path : ".", length ? length : 1);
+    int result = stat(folder, status);
+    free(folder);
+    return result;
+}
+
+static int is_one(const struct stat *a, const struct stat *b)
+{
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
+/* One name in one folder, or one file under two names. */
+static int is_same_file(const char *a, const char *b)
+{
+    struct stat status_a, status_b;
+    int has_a = stat(a, &status_a) == 0, has_b = stat(b, &status_b) == 0;
+    if (has_a && has_b)
+        return S_ISREG(status_a.st_mode) && is_one(&status_a, &status_b);
+    return !has_a && !has_b && strcmp(last_name(a), last_name(b)) == 0 && folder_status(a, &status_a) == 0 &&
+           folder_status(b, &status_b) == 0 && is_one(&status_a, &status_b);
+}
+
+int file_check_distinct(const char *const outputs[], int output_count, const char *const inputs[], int input_count,
+                        problem *why)
+{
+    for (int i = 0; i < output_count; i++) {
+        for (int k = 0; outputs[i] && k < i; k++)
+            if (outputs[k] && is_same_file(outputs[i], outputs[k]))
+                return problem_in(why, outputs[i], "is two outputs at once; expected a file of its own for each");
+        for (int k = 0; outputs[i] && k < input_count; k++)
+            if (inputs[k] && is_same_file(outputs[i], inputs[k]))
+                return problem_in(why, outputs[i], "is read, and would be overwritten; expected another file to write");
+    }
+    return 0;
+}
+
 int file_output_name(file_output *output, const char *path, problem *why)
 {
     struct stat status;

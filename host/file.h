@@ -27,6 +27,12 @@ typedef struct file_output {
  * problem. */
 int file_can_write(const char *path, problem *why);
 
+/* Outputs that would overwrite each other, or an input (0 in either list: none is given), are refused; what is no
+ * regular file (/dev/stdout) may be named twice. Only what the paths lead to counts, not how they are spelled. 0, or -1
+ * and the problem. */
+int file_check_distinct(const char *const outputs[], int output_count, const char *const inputs[], int input_count,
+                        problem *why);
+
 /* Name the temporary; .stream stays 0. For writers that open files by name. */
 int file_output_name(file_output *output, const char *path, problem *why);
 

@@ -46,14 +46,18 @@ static int all_meshes_are_closed(const packed_scene *packed)
     return 1;
 }
 
-/* A method leaves culling and layers to the plan, which picks the cheapest that give its surface. */
+/* A method leaves culling and layers to the plan, which picks the cheapest that give its surface. Shadow volumes read
+ * no setting of a map: fixed ones, so that a scene is packed to the same bytes whatever it had before. */
 static void use_method(gn_settings *settings, const packed_scene *packed, int method)
 {
     settings->shadow = method == METHOD_VOLUMES ? GN_SHADOW_VOLUMES : GN_SHADOW_MAP;
-    if (method == METHOD_VOLUMES)
-        return;
     settings->cull = GN_CULL_AUTO;
     settings->layers = GN_LAYERS_AUTO;
+    if (method == METHOD_VOLUMES) {
+        settings->bias = (gn_bias){GN_BIAS_WORLD, 0};
+        settings->surface = GN_CONSTANT;
+        return;
+    }
     settings->bias = (gn_bias){GN_BIAS_TEXELS, 2 << 16};
     settings->surface = (uint8_t)method;
     if (method == METHOD_AUTO) {
@@ -62,6 +66,11 @@ static void use_method(gn_settings *settings, const packed_scene *packed, int me
         settings->surface = all_meshes_are_closed(packed) ? GN_SECOND : GN_MIXED;
         settings->bias.value = 8 << 16;
     }
+}
+
+static int refuse_for_volumes(const char *name, problem *why)
+{
+    return problem_of_usage(why, "%s has no meaning for shadow volumes; expected a method with a shadow map", name);
 }
 
 static int read_method(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why)
@@ -78,6 +87,8 @@ static int read_method(gn_settings *settings, const packed_scene *packed, const 
             return -1;
     }
     if (values[RENDER_SURFACE]) {
+        if (!values[RENDER_METHOD] && settings->shadow == GN_SHADOW_VOLUMES)
+            return refuse_for_volumes("--virtual-surface", why);
         surface = option_choice("--virtual-surface", values[RENDER_SURFACE], surfaces, 5, why);
         if (strcmp(values[RENDER_SURFACE], "slope") == 0)
             return problem_of_usage(why, "--virtual-surface slope is not built yet; expected one of the others");
@@ -146,8 +157,7 @@ static int check_volumes(const char *const values[], problem *why)
                    {RENDER_PARAMETERISE, "--parameterise"}};
     for (size_t i = 0; i < sizeof of_maps / sizeof *of_maps; i++)
         if (values[of_maps[i].option])
-            return problem_of_usage(why, "%s has no meaning for shadow volumes; expected a method with a shadow map",
-                                    of_maps[i].name);
+            return refuse_for_volumes(of_maps[i].name, why);
     return 0;
 }
 

@@ -123,16 +123,6 @@ double wide_to_double(wide a)
     return a.sign * value;
 }
 
-int wide_bits(wide a)
-{
-    int bits = 32 * a.length;
-    if (!bits)
-        return 0;
-    for (uint32_t top = a.limb[a.length - 1]; !(top >> 31); top <<= 1)
-        bits--;
-    return bits;
-}
-
 wide wide_dot(const wide a[3], const wide b[3])
 {
     wide xy = wide_add(wide_multiply(a[0], b[0]), wide_multiply(a[1], b[1]));

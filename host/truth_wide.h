@@ -28,9 +28,6 @@ int wide_compare(wide a, wide b);
 /* The nearest doubles are not promised: relative error at most 2^-50. */
 double wide_to_double(wide a);
 
-/* Bits of the magnitude; 0 for zero. */
-int wide_bits(wide a);
-
 wide wide_dot(const wide a[3], const wide b[3]);
 
 #endif

@@ -71,6 +71,13 @@ check "statistics_name_what_was_chosen" sh -c "grep -q '\"virtual_surface\": \"m
 check "a_mask_equals_itself" status 0 compare "$folder/a.pgm" "$folder/a.pgm"
 check "bench_measures" status 0 bench "$scene" --runs 2 --size 40x30 --map 32 --json "$folder/bench.json"
 check "bench_writes_json" grep -q '"median_ms"' "$folder/bench.json"
+check "which_names_the_map" sh -c "grep -q '\"shadow\": \"map\"' '$folder/bench.json' && grep -q '\"map_width\": 32' '$folder/bench.json'"
+check "bench_prints_the_map" sh -c "'$gnomon' bench '$scene' --runs 1 --size 40x30 --map 32 |
+    grep -q 'shadow map 32 x 32, virtual surface second, layers'"
+check "bench_of_volumes_names_them_and_no_map" sh -c "'$gnomon' bench '$scene' --runs 1 --size 40x30 --method volumes \
+    --json '$folder/volumes.json' >'$folder/printed' && grep -q 'shadow volumes, region' '$folder/printed' &&
+    grep -q '\"shadow\": \"volumes\"' '$folder/volumes.json' &&
+    ! grep -qE 'map|virtual|layers|cull' '$folder/printed' '$folder/volumes.json'"
 
 for method in constant midpoint dual second-depth mixed auto; do
     one=$(hash_of "$scene" --method $method --size 100x75 --map 60x44)
@@ -133,6 +140,17 @@ check "and_has_none_that_count" sh -c "${CC:-cc} -std=c99 -pedantic -Wall -Wextr
 check "edges_worth_a_notice_are_noticed" sh -c "'$gnomon' pack '$folder/made/edged.scene' -o '$folder/none.gno' --edges \
     --verbose 2>&1 | grep -qx 'gnomon: notice: mesh 2 has 1 triangles with two corners at one place'"
 
+# Shadow volumes read no setting of a map: none of a former method is left.
+check "a_scene_is_packed_with_volumes" status 0 pack "$scene" --method volumes -o "$folder/volumes.gno"
+check "and_by_way_of_a_packed_scene_without_a_method" status 0 pack "$folder/lshape.gno" --method volumes -o "$folder/again.gno"
+check "to_the_same_bytes" cmp "$folder/volumes.gno" "$folder/again.gno"
+check "a_packed_scene_of_a_method_is_packed" status 0 pack "$scene" --method dual --bias 3t --layers two -o "$folder/dual.gno"
+check "and_once_more_with_volumes" status 0 pack "$folder/dual.gno" --method volumes -o "$folder/again.gno"
+check "to_the_same_bytes_too" cmp "$folder/volumes.gno" "$folder/again.gno"
+check "volumes_of_a_packed_scene_are_not_left_for_a_surface" refuses "--virtual-surface has no meaning for shadow volumes" \
+    render "$folder/volumes.gno" --virtual-surface dual -o "$folder/new.ppm"
+check "but_for_a_method" same_hashes "$(hash_of "$folder/volumes.gno" --method dual)" "$(hash_of "$scene" --method dual)"
+
 mkdir "$folder/folder.ppm"
 check "two_scenes_are_refused" refuses "2 scenes" render "$scene" "$scene" -o "$folder/new.ppm"
 check "nothing_to_write_is_refused" refuses "nothing to write" render "$scene"
@@ -190,6 +208,11 @@ check "a_broken_scene_is_refused_with_its_line" refuses "broken.scene:2: unknown
 check "an_older_picture_is_kept" grep -qx old "$folder/kept.ppm"
 check "output_to_a_device_is_written_directly" sh -c "'$gnomon' render '$scene' --size 8x6 --stats /dev/stdout |
     grep -q '\"width\": 8'"
+check "one_file_for_two_outputs_is_refused" refuses "two outputs at once" render "$scene" -o "$folder/new.ppm" \
+    --stats "$folder/new.ppm"
+check "a_scene_is_not_overwritten" refuses "would be overwritten" render "$scene" --stats "$scene"
+check "nor_by_bench" refuses "would be overwritten" bench "$scene" --runs 1 --json "$scene"
+check "the_scene_is_as_it_was" grep -q camera "$scene"
 check "one_bad_output_stops_the_others" refuses "cannot be written" render "$scene" -o "$folder/new.ppm" \
     --mask "$folder/none/new.pgm"
 finish

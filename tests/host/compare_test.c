@@ -321,6 +321,51 @@ static void senseless_comparisons(void)
        "masks_of_two_sizes_are_refused");
 }
 
+/* Per cents of no surface cannot exceed a limit: the count must. */
+static void a_truth_without_surface(void)
+{
+    static const char *const loose[] = {"--allow-vacuous", "--max-coverage", "100", 0};
+    char text[4000];
+    const char *options[] = {"--allow-vacuous", "--json", sandbox_path("in.json"), 0};
+    sandbox_write("in-mask.pgm", "P5\n4 1\n255\n\376\376\0\0", 15);
+    sandbox_write("in-truth.pgm", "P5\n4 1\n255\n\377\377\377\377", 15);
+    ok(compare(options) == EXIT_DIFFERS, "a_mask_with_a_surface_differs_from_a_truth_without");
+    read_output("in.json", text, sizeof text);
+    ok(strstr(text, "\"coverage_differs\": 4,") && strstr(text, "\"equal\": false"), "and_json_says_so");
+    ok(compare(loose) == EXIT_DIFFERS, "whatever_the_limit");
+    sandbox_write("in-mask.pgm", "P5\n4 1\n255\n\377\377\377\377", 15);
+    ok(compare(options) == EXIT_DONE, "two_masks_without_surface_are_equal");
+    sandbox_write("in-mask.pgm", row_mask, ROW_SIZE);
+    sandbox_write("in-truth.pgm", "P5\n8 1\n255\n\0\377\377\377\377\377\377\377", ROW_SIZE);
+    sandbox_write("in-near.pgm", "P5\n8 1\n255\n\377\0\0\0\0\0\0\0", ROW_SIZE);
+    const char *near[] = {"--near", sandbox_path("in-near.pgm"), "--allow-vacuous", 0};
+    ok(compare(near) == EXIT_DIFFERS, "also_where_all_surface_of_the_truth_is_near_a_tie");
+}
+
+/* Refused with the file's name; all inputs are as they were. */
+static void files_that_are_named_twice(void)
+{
+    char text[40] = "", spelled[600];
+    write_row();
+    snprintf(spelled, sizeof spelled, "%s/./out.ppm", sandbox_folder);
+    const char *twice[] = {"--difference", sandbox_path("out.ppm"), "--json", sandbox_path("out.ppm"), 0};
+    ok(sandbox_refused(compare(twice), "out.ppm", "", "two outputs at once"), "one_file_for_two_outputs_is_refused");
+    const char *otherwise[] = {"--difference", spelled, "--json", sandbox_path("out.ppm"), 0};
+    ok(sandbox_refused(compare(otherwise), "out.ppm", "", "two outputs at once"), "however_it_is_spelled");
+    static const char *const inputs[] = {"in-mask.pgm", "in-truth.pgm", "in-near.pgm"};
+    for (int i = 0; i < 3; i++) {
+        const char *over[] = {"--near", sandbox_path("in-near.pgm"), "--json", sandbox_path(inputs[i]), 0};
+        ok(sandbox_refused(compare(over), inputs[i], "", "would be overwritten"), "json_over_%s_is_refused", inputs[i]);
+        read_output(inputs[i], text, sizeof text);
+        ok(memcmp(text, "P5\n", 3) == 0, "and_it_is_as_it_was");
+    }
+    ok(symlink(sandbox_path("in-truth.pgm"), sandbox_path("in-link.json")) == 0, "a_link_to_the_truth_is_made");
+    const char *link[] = {"--json", sandbox_path("in-link.json"), 0};
+    ok(sandbox_refused(compare(link), "in-link.json", "", "would be overwritten"), "json_over_the_link_is_refused");
+    const char *device[] = {"--difference", sandbox_path("in.ppm"), "--json", "/dev/null", 0};
+    ok(compare(device) == EXIT_DIFFERS, "a_device_and_a_file_are_two");
+}
+
 static void bad_usage(void)
 {
     static const char *const cases[][4] = {
@@ -354,6 +399,8 @@ int main(void)
     nothing_but_ties();
     no_edge();
     senseless_comparisons();
+    a_truth_without_surface();
+    files_that_are_named_twice();
     bad_usage();
     sandbox_close();
     return tap_done();

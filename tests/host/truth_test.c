@@ -42,6 +42,17 @@ static wide random_wide(int limbs)
     return a;
 }
 
+/* Bits of the magnitude; 0 for zero. */
+static int wide_bits(wide a)
+{
+    int bits = 32 * a.length;
+    if (!bits)
+        return 0;
+    for (uint32_t top = a.limb[a.length - 1]; !(top >> 31); top <<= 1)
+        bits--;
+    return bits;
+}
+
 static int is_normal(wide a)
 {
     return a.length ? a.sign * a.sign == 1 && a.limb[a.length - 1] : a.sign == 0;

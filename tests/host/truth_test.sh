@@ -94,5 +94,14 @@ check "a_missing_scene_is_refused" refuses "cannot be" truth "$folder/none.scene
 check "65_workers_are_refused" refuses "--workers" truth "$scene" --workers 65 --mask "$folder/new.pgm"
 check "a_size_of_0_is_refused" refuses "--size" truth "$scene" --size 0x5 --mask "$folder/new.pgm"
 check "an_unknown_kind_of_picture_is_refused" refuses "new.xyz" truth "$scene" --mask "$folder/new.xyz"
+check "one_file_for_two_outputs_is_refused" refuses "two outputs at once" truth "$scene" --mask "$folder/new.pgm" --near "$folder/new.pgm"
+check "also_where_it_is_spelled_in_another_way" refuses "two outputs at once" truth "$scene" --ties "$folder/new.pgm" \
+    --mask "$folder/../${folder##*/}/new.pgm"
+check "a_scene_is_not_overwritten" refuses "would be overwritten" truth "$scene" --json "$scene"
+check "and_is_as_it_was" grep -q camera "$scene"
+check "a_device_may_be_named_twice" status 0 truth "$scene" --size 8x6 --ties "$folder/two.txt" --json /dev/null
+check "a_full_disk_is_refused" status 2 truth "$scene" --size 8x6 --mask "$folder/stays.pgm" --json /dev/full
+check "which_leaves_what_was_written_before" test -s "$folder/stays.pgm"
+check "as_the_help_says" sh -c "'$gnomon' truth --help | grep -q 'no file is left half-written'"
 check "a_folder_that_is_not_there_is_refused" refuses "nowhere" truth "$scene" --mask "$folder/new.pgm" --ties "$folder/nowhere/new.txt"
 finish

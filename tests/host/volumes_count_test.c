@@ -362,7 +362,7 @@ static void count_cap(const caster *c, const gn_outline *o, int clipped)
         int32_t x = at % b.width, y = at / b.width;
         int turns = b.counts[at] ? turns_round(o, x, y) : 0;
         if (turns && (!clipped || b.eye.perspective || b.seen[at] == c->identifier ||
-                      value_at(&plane, x, y) < shifted(near_plane + 1, plane.plane.shift)))
+                      value_at(&plane, x, y) < shifted(near_plane + 1, plane.plane.shift) + (plane.plane.shift > 0)))
             b.count[at] += (uint32_t)(turns * c->winding);
     }
 }

@@ -46,7 +46,8 @@ shot() {
     oiiotool "$work/difference.png" --cut "$crop" -o "$work/$out.difference.png"
 }
 
-# join OUT COLUMNSxROWS PICTURE...: OUT.png of the folder.
+# join OUT COLUMNSxROWS PICTURE...: OUT.png of the folder. No metadata: oiiotool's would name this machine's folders, and
+# make every run's file another.
 join() {
     out=$1
     shape=$2
@@ -54,7 +55,7 @@ join() {
     pictures=
     for picture; do pictures="$pictures $work/$picture.png"; done
     # shellcheck disable=SC2086 # words; the folder is mktemp's
-    oiiotool $pictures --mosaic:pad=4 "$shape" -o "$folder/$out.png"
+    oiiotool $pictures --mosaic:pad=4 "$shape" --nosoftwareattrib --eraseattrib '.*' -o "$folder/$out.png"
 }
 
 for scene in castle room pipes pins factory torus2; do
