@@ -32,8 +32,8 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
     {"--method", "NAME", \
      "constant, midpoint, dual, second-depth, mixed or auto: a preset of the\n" \
      "options below. auto (the default): second-depth where every mesh is\n" \
-     "closed, else mixed with bias 8t. volumes: shadow volumes, exact at every\n" \
-     "pixel and without a map: none of the options below"}, \
+     "closed, else mixed with bias 8t. volumes: shadow volumes, right at every\n" \
+     "pixel but ties, and without a map: none of the options below"}, \
     {"--parameterise", "NAME", "uniform: the map covers the light's frustum evenly"}, \
     {"--cull", "WHICH", \
      "auto, none, back or front faces of closed meshes in the light pass.\n" \
