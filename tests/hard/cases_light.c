@@ -39,7 +39,12 @@ static void build_grazing(builder *b, double degrees, int open)
     build_low_sun(b, degrees);
 }
 
-/* A block 0.4 high has a shadow 0.4 cot e long. */
+/* midpoint_of_the_top: the block's top ends D behind a texel's centre. Light that meets the centre leaves through the
+ * block's back side, D / cos e deeper, so that the middle is D / (2 cos e) deep: points of the top from D / (2 cos^2 e)
+ * behind the centre on are dark, up to the edge or the end of the texel, half a row of t / sin e, whichever is less. A
+ * column of pixels is 1/48 m x 1 m, 0.25 %; one more or less is allowed, as borders of texels may fall either way.
+ *
+ * A block 0.4 high has a shadow 0.4 cot e long. */
 static int grazing_by_hand(const double p[3], double degrees)
 {
     if (p[1] > 0.3)
@@ -150,32 +155,40 @@ static const hard_case cases[] = {
      .group = GROUP,
      .flags = LONG,
      .title = "sun at 20 degrees, floor solid",
-     .expected = "half a texel spans 1.37 texels: 2 texels suffice",
+     .expected = "half a texel spans 1.37 texels: 2 texels suffice. Midpoint: the block's top near its back edge, 0.5 %",
      .advice = "As it should be.",
      .build = build_solid_at_20,
      .by_hand = at_20_by_hand,
-     /* The block's top falls to its back edge; the midpoint there is within 0.25 t of the front. */
-     .methods = {[METHOD_MIDPOINT] = SHADOW(0, 2)}},
+     /* midpoint_of_the_top: D = 0.090 m, dark from 0.051 m to 0.090 m: 2 columns of pixels, 0.5 %. */
+     .methods = {[METHOD_MIDPOINT] = SHADOW(0.2, 0.8)}},
     {.name = "grazing_10_degrees",
      .group = GROUP,
      .flags = LONG,
      .title = "10 degrees",
-     .expected = "constant, dual: acne where 2.84 texels are spanned, 10.5 %; second depth, mixed, auto none",
+     .expected = "constant, dual: acne where 2.84 texels are spanned, 10.6 %; midpoint 0.5 %; second depth, mixed, auto none",
      .advice = "c texels serve down to atan(1 / 2c) above the surface: 2 texels 14 degrees, 8 texels 3.6.",
      .build = build_solid_at_10,
      .by_hand = at_10_by_hand,
-     /* Rows of 0.36 m, the last 0.053 m of each: 9 of them over 1.5 m, and one each before, behind and on the block. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(8, 13), [METHOD_MIDPOINT] = SHADOW(0, 2), [METHOD_DUAL] = SHADOW(8, 13)}},
+     /* Rows of 0.36 m, the last 0.053 m of each, 2 or 3 columns: 9 rows over 1.5 m, and one each before, behind and on
+      * the block; column by column 10.6 %, two columns of 0.375 % more or less. Midpoint: D = 0.269 m, half a row 0.18
+      * m, dark from 0.139 m to 0.18 m: 2 columns. */
+     .methods = {[METHOD_CONSTANT] = SHADOW(9.9, 11.4),
+                 [METHOD_MIDPOINT] = SHADOW(0.2, 0.8),
+                 [METHOD_DUAL] = SHADOW(9.9, 11.4)}},
     {.name = "grazing_5_degrees",
      .group = GROUP,
      .title = "5 degrees",
-     .expected = "constant, dual: 25 %; second depth, mixed, auto none",
+     .expected = "constant, dual: 25 %; midpoint 1.5 %; second depth, mixed, auto none",
      .advice = "As above.",
      .build = build_solid_at_5,
      .by_hand = at_5_by_hand,
      .picture = METHOD_DUAL + 1,
-     /* Rows of 0.717 m, the last 0.233 m of each: 5 over 1.5 m, one before the block, 0.12 m of its top: 2.1 m^2. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(23, 27), [METHOD_MIDPOINT] = SHADOW(0, 2), [METHOD_DUAL] = SHADOW(23, 27)}},
+     /* Rows of 0.717 m, the last 0.233 m of each: 5 over 1.5 m, one before the block, 0.12 m of its top: 2.1 m^2;
+      * column by column 25.25 %, two columns more or less. Midpoint: D = 0.245 m, dark from 0.123 m on: 6 columns of 1
+      * m, 1.5 %. */
+     .methods = {[METHOD_CONSTANT] = SHADOW(24.4, 26.1),
+                 [METHOD_MIDPOINT] = SHADOW(1.2, 1.8),
+                 [METHOD_DUAL] = SHADOW(24.4, 26.1)}},
     {.name = "grazing_2_degrees",
      .group = GROUP,
      .title = "2 degrees",
@@ -187,9 +200,10 @@ static const hard_case cases[] = {
      .by_hand = at_2_by_hand,
      /* Centres at x = -0.895 and 0.895. Constant: dark from -0.77 to 0 and 1.02 to 1.67 over 1.5 m, and 0.175 m of the
       * block's top, whose centre stands on its front: 2.3 m^2. Midpoint, the slab ends at 1.95: dark from 1.42 on, 0.37
-      * m^2, and half of the block's top, 0.15 m^2. */
-     .methods =
-         {[METHOD_CONSTANT] = SHADOW(26, 29), [METHOD_MIDPOINT] = SHADOW(5, 7.5), [METHOD_DUAL] = SHADOW(26, 29)}},
+      * m^2, and half of the block's top, 0.15 m^2: column by column 6.25 %. */
+     .methods = {[METHOD_CONSTANT] = SHADOW(26.7, 28.3),
+                 [METHOD_MIDPOINT] = SHADOW(5.8, 6.7),
+                 [METHOD_DUAL] = SHADOW(26.7, 28.3)}},
     {.name = "grazing_1_degree",
      .group = GROUP,
      .flags = LONG,
@@ -228,37 +242,39 @@ static const hard_case cases[] = {
      .group = GROUP,
      .flags = LONG,
      .title = "20 degrees, floor an open sheet",
-     .expected = "second depth: half of the lit floor is dark, 42 %; the others none",
+     .expected = "second depth: half of the lit floor is dark, 42 %; midpoint 0.5 %; the others none",
      .advice = "Second depth is not for open meshes; `auto` takes mixed.",
      .build = build_sheet_at_20,
      .by_hand = at_20_by_hand,
      .picture = METHOD_SECOND + 1,
-     .methods = {[METHOD_MIDPOINT] = SHADOW(0, 2), [METHOD_SECOND] = SHADOW(38, 45)}},
+     /* Midpoint: the block's top, as on the solid. */
+     .methods = {[METHOD_MIDPOINT] = SHADOW(0.2, 0.8), [METHOD_SECOND] = SHADOW(38, 45)}},
     {.name = "sheet_5_degrees",
      .group = GROUP,
      .title = "5 degrees, sheet",
-     .expected = "constant, dual, mixed with 2 texels: a quarter; second depth a third; auto, 8 texels, none",
+     .expected = "constant, dual, mixed with 2 texels: a quarter; second depth a third; midpoint 1.5 %; auto, 8 texels, none",
      .advice = "`auto` takes 8 texels where something is open.",
      .build = build_sheet_at_5,
      .by_hand = at_5_by_hand,
      .picture = METHOD_MIXED + 1,
      /* As on the solid; for mixed without the block's top, 0.12 m^2. Second depth: half of 5.26 m^2. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(23, 27),
-                 [METHOD_MIDPOINT] = SHADOW(0, 2),
-                 [METHOD_DUAL] = SHADOW(23, 27),
+     .methods = {[METHOD_CONSTANT] = SHADOW(24.4, 26.1),
+                 [METHOD_MIDPOINT] = SHADOW(1.2, 1.8),
+                 [METHOD_DUAL] = SHADOW(24.4, 26.1),
                  [METHOD_SECOND] = SHADOW(28, 35),
                  [METHOD_MIXED] = SHADOW(22, 26)}},
     {.name = "sheet_2_degrees",
      .group = GROUP,
      .flags = LONG,
      .title = "2 degrees, sheet",
-     .expected = "constant, dual 27.6 %, mixed 25.5 %, second depth 30 %; auto, beyond 8 texels from a centre, 12 %",
+     .expected = "constant, dual 27.6 %, mixed 25.5 %, second depth 30 %; midpoint 1.75 %; auto, beyond 8 texels from a centre, 12 %",
      .advice = "8 texels serve down to 3.6 degrees.",
      .build = build_sheet_at_2,
      .by_hand = at_2_by_hand,
-     .methods = {[METHOD_CONSTANT] = SHADOW(26, 29),
-                 [METHOD_MIDPOINT] = SHADOW(1, 2.5),
-                 [METHOD_DUAL] = SHADOW(26, 29),
+     /* Midpoint: half of the block's top, 7 columns of 1 m: 1.75 %. The others as on the solid. */
+     .methods = {[METHOD_CONSTANT] = SHADOW(26.7, 28.3),
+                 [METHOD_MIDPOINT] = SHADOW(1.4, 2.1),
+                 [METHOD_DUAL] = SHADOW(26.7, 28.3),
                  [METHOD_SECOND] = SHADOW(28, 32),
                  [METHOD_MIXED] = SHADOW(24, 27),
                  [METHOD_AUTO] = SHADOW(11, 13)}},

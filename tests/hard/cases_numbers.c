@@ -336,7 +336,8 @@ static void at_and_beyond(hard_row *row, const char *what, gn_status at, gn_stat
     promise(row, beyond == GN_OUT_OF_RANGE, 0, "limits_%s_is_refused_one_step_beyond", what);
 }
 
-static gn_status plan_with(int32_t coordinate, uint16_t width, uint16_t map_width, uint8_t workers)
+/* A plan for one triangle, with settings that are in their ranges but for what a caller puts there. */
+static gn_status plan_of(int32_t coordinate, const gn_settings *settings)
 {
     int32_t vertices[3][3] = {{0, 0, 0}, {coordinate, 0, 0}, {0, -coordinate, 5}};
     static const uint16_t indices[3] = {0, 1, 2};
@@ -347,10 +348,57 @@ static gn_status plan_with(int32_t coordinate, uint16_t width, uint16_t map_widt
                     .index_size = 2};
     gn_object object = {.mesh = &mesh};
     gn_scene scene = {.objects = &object, .object_count = 1};
-    gn_settings settings = gn_default_settings(width, 8, map_width);
     gn_plan plan;
+    return gn_make_plan(&plan, &scene, settings);
+}
+
+static gn_status plan_vertex(int32_t coordinate)
+{
+    gn_settings settings = gn_default_settings(8, 8, 8);
+    return plan_of(coordinate, &settings);
+}
+
+static gn_status plan_image(uint16_t width, uint16_t height)
+{
+    gn_settings settings = gn_default_settings(width, height, 8);
+    return plan_of(9, &settings);
+}
+
+static gn_status plan_map(uint16_t width, uint16_t height)
+{
+    gn_settings settings = gn_default_settings(8, 8, width);
+    settings.map_height = height;
+    return plan_of(9, &settings);
+}
+
+static gn_status plan_workers(uint8_t workers)
+{
+    gn_settings settings = gn_default_settings(8, 8, 8);
     settings.workers = workers;
-    return gn_make_plan(&plan, &scene, &settings);
+    return plan_of(9, &settings);
+}
+
+/* The triangle's corners have x = -2^24: m, shift and t are chosen so that they stay within the world, and only the
+ * model's own ranges count. */
+static gn_status fit_to_model(int32_t m, int32_t t, uint8_t shift)
+{
+    static const int32_t vertices[3][3] = {{-16777216, 0, 0}, {-16777216, 9, 0}, {-16777216, 0, 9}};
+    static const uint16_t indices[3] = {0, 1, 2};
+    static const int32_t direction[3] = {1, -1, 0};
+    gn_mesh mesh = {.vertices = vertices, .indices = indices, .vertex_count = 3, .triangle_count = 1, .index_size = 2};
+    gn_model model = {.m = {{m, 0, 0}, {0, 1, 0}, {0, 0, 1}}, .t = {t, 0, 0}, .shift = shift};
+    gn_object object = {.mesh = &mesh, .model = &model};
+    gn_scene scene = {.objects = &object, .object_count = 1};
+    gn_light light;
+    gn_status status = gn_directional_light(&light, direction, 0);
+    return status == GN_OK ? gn_fit_light(&light, &scene) : GN_BAD_ARGUMENT;
+}
+
+static gn_status shine_along(int32_t x)
+{
+    gn_light light;
+    const int32_t direction[3] = {x, -5, 0};
+    return gn_directional_light(&light, direction, 0);
 }
 
 static gn_status look_from(int32_t x)
@@ -378,6 +426,13 @@ static gn_status aim_spot(int32_t x, double degrees)
     const int32_t position[3] = {x, 0, 0}, target[3] = {0, 5, 0};
     return gn_spot_light(&light, position, target, 0, (gn_angle)(int64_t)llround(degrees / 360 * 4294967296.0), 1000,
                          100000);
+}
+
+static gn_status open_spot(int32_t near_depth, int32_t far_depth)
+{
+    gn_light light;
+    const int32_t position[3] = {9, 0, 0}, target[3] = {0, 5, 0};
+    return gn_spot_light(&light, position, target, 0, GN_DEGREES(40), near_depth, far_depth);
 }
 
 /* Both passes of the block with another box or other planes. */
@@ -417,6 +472,29 @@ static void change_box_width(packed_scene *packed, int32_t value)
     packed->light.box_width = value;
 }
 
+static void change_box_height(packed_scene *packed, int32_t value)
+{
+    packed->light.box_height = value;
+}
+
+static void change_box_v(packed_scene *packed, int32_t value)
+{
+    packed->light.box_v = value;
+}
+
+/* Deep enough a box for what then lies far behind its front. */
+static void change_box_z(packed_scene *packed, int32_t value)
+{
+    packed->light.box_z = value;
+    packed->light.box_depth = 1 << 28;
+}
+
+static void change_spot_planes(packed_scene *packed, int32_t value)
+{
+    static const int32_t position[3] = {0, 4 * BUILD_METRE, 0}, target[3] = {0, 0, 0};
+    (void)gn_spot_light(&packed->light, position, target, 0, GN_DEGREES(90), 200, value);
+}
+
 static void change_box_u(packed_scene *packed, int32_t value)
 {
     packed->light.box_u = value;
@@ -444,13 +522,29 @@ static void change_vertex(packed_scene *packed, int32_t value)
 /* The limits are those that core/gnomon.h states. */
 static void run_limits(hard_row *row)
 {
-    int32_t world = 1 << 24, eye = 1 << 27, depth = 1 << 28;
-    at_and_beyond(row, "vertex", plan_with(world, 8, 8, 1), plan_with(world + 1, 8, 8, 1));
-    at_and_beyond(row, "image_width", plan_with(9, 4096, 8, 1), plan_with(9, 4097, 8, 1));
-    at_and_beyond(row, "least_image_width", plan_with(9, 1, 8, 1), plan_with(9, 0, 8, 1));
-    at_and_beyond(row, "map_width", plan_with(9, 8, 4096, 1), plan_with(9, 8, 4097, 1));
-    at_and_beyond(row, "least_map_width", plan_with(9, 8, 1, 1), plan_with(9, 8, 0, 1));
-    at_and_beyond(row, "workers", plan_with(9, 8, 8, 64), plan_with(9, 8, 8, 65));
+    int32_t world = 1 << 24, eye = 1 << 27, depth = 1 << 28, model = 1 << 30;
+    at_and_beyond(row, "vertex", plan_vertex(world), plan_vertex(world + 1));
+    at_and_beyond(row, "image_width", plan_image(4096, 8), plan_image(4097, 8));
+    at_and_beyond(row, "image_height", plan_image(8, 4096), plan_image(8, 4097));
+    at_and_beyond(row, "least_image_width", plan_image(1, 8), plan_image(0, 8));
+    at_and_beyond(row, "least_image_height", plan_image(8, 1), plan_image(8, 0));
+    at_and_beyond(row, "map_width", plan_map(4096, 8), plan_map(4097, 8));
+    at_and_beyond(row, "map_height", plan_map(8, 4096), plan_map(8, 4097));
+    at_and_beyond(row, "least_map_width", plan_map(1, 8), plan_map(0, 8));
+    at_and_beyond(row, "least_map_height", plan_map(8, 1), plan_map(8, 0));
+    at_and_beyond(row, "workers", plan_workers(64), plan_workers(65));
+    at_and_beyond(row, "least_workers", plan_workers(1), plan_workers(0));
+    at_and_beyond(row, "model_factor", fit_to_model(model, 0, 30), fit_to_model(model + 1, 0, 30));
+    at_and_beyond(row, "negative_model_factor", fit_to_model(-model, 0, 30), fit_to_model(-model - 1, 0, 30));
+    at_and_beyond(row, "model_translation", fit_to_model(model, model, 24), fit_to_model(model, model + 1, 24));
+    at_and_beyond(row, "negative_model_translation", fit_to_model(-model, -model, 24),
+                  fit_to_model(-model, -model - 1, 24));
+    at_and_beyond(row, "model_shift", fit_to_model(model, 0, 62), fit_to_model(model, 0, 63));
+    at_and_beyond(row, "direction", shine_along(eye), shine_along(eye + 1));
+    at_and_beyond(row, "spot_far_plane", open_spot(1000, depth), open_spot(1000, depth + 1));
+    at_and_beyond(row, "spot_nearest_plane", open_spot(1, 1000), open_spot(0, 1000));
+    at_and_beyond(row, "spot_far_to_near", render_status(change_spot_planes, 200 << 20),
+                  render_status(change_spot_planes, (200 << 20) + 1));
     at_and_beyond(row, "eye", look_from(eye), look_from(eye + 1));
     at_and_beyond(row, "negative_eye", look_from(-eye), look_from(-eye - 1));
     at_and_beyond(row, "widest_camera", open_perspective(178, 1000, 2000), open_perspective(178.001, 1000, 2000));
@@ -466,13 +560,19 @@ static void run_limits(hard_row *row)
     at_and_beyond(row, "narrowest_spot", aim_spot(9, 0.5), aim_spot(9, 0.499));
     at_and_beyond(row, "box_width", render_status(change_box_width, depth), render_status(change_box_width, depth + 1));
     at_and_beyond(row, "least_box_width", render_status(change_box_width, 64), render_status(change_box_width, 63));
-    at_and_beyond(row, "box_place", render_status(change_box_u, -depth), render_status(change_box_u, -depth - 1));
+    at_and_beyond(row, "box_height", render_status(change_box_height, depth),
+                  render_status(change_box_height, depth + 1));
+    at_and_beyond(row, "least_box_height", render_status(change_box_height, 64), render_status(change_box_height, 63));
+    at_and_beyond(row, "box_u", render_status(change_box_u, -depth), render_status(change_box_u, -depth - 1));
+    at_and_beyond(row, "box_v", render_status(change_box_v, -depth), render_status(change_box_v, -depth - 1));
+    at_and_beyond(row, "box_z", render_status(change_box_z, -depth), render_status(change_box_z, -depth - 1));
+    at_and_beyond(row, "box_depth", render_status(change_box_depth, depth), render_status(change_box_depth, depth + 1));
     at_and_beyond(row, "least_box_depth", render_status(change_box_depth, 64), render_status(change_box_depth, 63));
     at_and_beyond(row, "far_to_near", render_status(change_planes, 200 << 20),
                   render_status(change_planes, (200 << 20) + 1));
     /* a vertex that moves beyond the world after the plan was made */
     at_and_beyond(row, "vertex_of_a_pass", render_status(change_vertex, world), GN_OUT_OF_RANGE);
-    row_remark(row, "%d limits.", row->met + row->unmet);
+    row_remark(row, "%d limits, two promises each.", (row->met + row->unmet) / 2);
 }
 
 /* ---- the list -------------------------------------------------------------------------------------------------- */
@@ -616,20 +716,22 @@ static const hard_case cases[] = {
      .group = GROUP,
      .title = "camera inside a solid; all is dark",
      .expected =
-         "second depth, mixed, auto: half of the floor and the far wall are lit, 15 to 45 %; constant, dual: a strip "
+         "second depth, mixed, auto: half of the floor and the far wall are lit, 28 %; constant, dual: a strip "
          "below the ceiling, 1 %",
      .advice = "A room is not a solid seen from outside: give its walls thickness, or mark it open.",
      .build = build_camera_inside,
      .by_hand = all_dark_by_hand,
      .flags = NO_LIGHT,
      .picture = METHOD_SECOND + 1,
-     /* They are the back faces that the map holds, compared with themselves. Constant, dual: what is within 2 t of the
+     /* They are the back faces that the map holds, compared with themselves: of each texel the half nearer to the light
+      * is lit. The floor fills 38.3 % of the picture, the far wall 16.8 %: 27.6 %; pixel by pixel 28.0 %. The floor's
+      * nearest row of texels, 5.5 %, is cut by the picture's edge: what its half gives or takes is 1.4 %. Constant, dual: what is within 2 t of the
       * ceiling along the light, 0.088 m of the far wall's 1.2 m; it fills 1/8 of the picture: 1 %. */
      .methods = {[METHOD_CONSTANT] = LIGHT(0.5, 1.5),
                  [METHOD_DUAL] = LIGHT(0.5, 1.5),
-                 [METHOD_SECOND] = LIGHT(15, 45),
-                 [METHOD_MIXED] = LIGHT(15, 45),
-                 [METHOD_AUTO] = LIGHT(15, 45)}},
+                 [METHOD_SECOND] = LIGHT(26.6, 29.4),
+                 [METHOD_MIXED] = LIGHT(26.6, 29.4),
+                 [METHOD_AUTO] = LIGHT(26.6, 29.4)}},
     {.name = "light_inside",
      .group = GROUP,
      .title = "spot light inside a solid; all is dark",
@@ -643,7 +745,7 @@ static const hard_case cases[] = {
      .methods = {[METHOD_DUAL] = LIGHT(85, 96), [METHOD_MIXED] = LIGHT(85, 96)}},
     {.name = "limits",
      .group = GROUP,
-     .title = "at every limit of core/gnomon.h, and one step beyond",
+     .title = "at limits that core/gnomon.h states, and one step beyond",
      .expected = "accepted; `GN_OUT_OF_RANGE`.",
      .advice = "No number wraps or crashes later.",
      .run = run_limits},

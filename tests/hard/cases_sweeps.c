@@ -130,11 +130,60 @@ static void run_directions(hard_row *row)
 /* ---- the light moves by less than a texel --------------------------------------------------------------------------
  */
 
+/* What was seen of a pixel on the way of the light's box through a texel. */
+enum {
+    WAS_LIT = 1,
+    WAS_SHADOWED = 2,
+    TEXEL_ERRED = 4, /* once the truth was another at the texel's centre, at most half a texel away */
+    METHOD_ERRED = 8 /* once it was wrong without that */
+};
+
+/* A pixel may flip where the truth's edge is within half a texel of it, t / 2 sideways and t / (2 sin 45) along the
+ * light on the floor: then the centre of some texel that the box's way brings there is beyond the edge (footprint.h).
+ * All others flip by the method's own errors. These have a place of their own that does not move with the texels, so
+ * that all 32 places of the box together may hold no more than own_limit allows for one, of which the roof's 1.7 % is
+ * left out: at this azimuth its far side is turned away from the light by 3 degrees and its near side faces it.
+ *
+ * Of how many pixels may flip: shadow edges of 10 m in all, 0.093 m of floor about each, 0.93 m^2. */
+static const double own_flip_limit[METHOD_COUNT] = {0.4, 1.6, 0.4, 1.2, 1.2, 1.2, 0};
+static const double flip_limit = 11;
+
+/* Add what a mask says to what was seen before. */
+static void look_for_flips(hard_row *row, const outcome *o, uint8_t *seen, size_t count)
+{
+    for (size_t i = 0; o->ran && i < count; i++) {
+        if (o->mask[i] == 255 || row->truth.mask[i] == 255 || row->near[i])
+            continue;
+        seen[i] |= o->mask[i] ? WAS_LIT : WAS_SHADOWED;
+        if (o->mask[i] != row->truth.mask[i])
+            seen[i] |= footprint_differs(&row->footprint, i, row->truth.mask[i]) ? TEXEL_ERRED : METHOD_ERRED;
+    }
+}
+
+static void check_flips(hard_row *row, int method, const uint8_t *seen, size_t count, uint64_t surface)
+{
+    size_t flipped = 0, own = 0;
+    for (size_t i = 0; i < count; i++) {
+        int flips = seen[i] & WAS_LIT && seen[i] & WAS_SHADOWED;
+        flipped += flips;
+        own += flips && !(seen[i] & TEXEL_ERRED);
+    }
+    double all_percent = 100.0 * (double)flipped / (double)surface;
+    double apart_percent = 100.0 * (double)own / (double)surface;
+    if (!promise(row, apart_percent <= own_flip_limit[method], 0, "%s_%s_flips_within_half_a_texel_of_an_edge",
+                 row->about->name, method_names[method]))
+        say("%.3f %% flip elsewhere, expected at most %g", apart_percent, own_flip_limit[method]);
+    promise(row, all_percent <= (method == METHOD_VOLUMES ? 0 : flip_limit), 0, "%s_%s_flips_as_derived",
+            row->about->name, method_names[method]);
+    row_remark(row, "%s%s %.1f (%.2f)", method ? ", " : "Flip (of these elsewhere): ", method_names[method],
+               all_percent, apart_percent);
+}
+
 /* Truth stays the same, as a sun has no place. Pixels that are answered differently on the way through a texel. */
 static void run_translation(hard_row *row)
 {
     enum { STEPS = 16, PIXELS = 160 * 120 };
-    uint8_t *seen = memory_take((size_t)METHOD_COUNT * PIXELS, 1); /* 1: was lit, 2: was shadowed */
+    uint8_t *seen = memory_take((size_t)METHOD_COUNT * PIXELS, 1);
     outcome worst[METHOD_COUNT];
     double worst_own[METHOD_COUNT] = {0};
     int same_truth = 1;
@@ -158,9 +207,7 @@ static void run_translation(hard_row *row)
             row_measure(row, method, &s);
             outcome *o = &row->outcomes[method];
             worst_own[method] = fmax(worst_own[method], own_percent(row, o, method));
-            for (size_t i = 0; o->ran && i < PIXELS; i++)
-                if (o->mask[i] != 255 && !row->near[i])
-                    seen[(size_t)method * PIXELS + i] |= o->mask[i] ? 1 : 2;
+            look_for_flips(row, o, seen + (size_t)method * PIXELS, PIXELS);
             keep_worst(&worst[method], o);
         }
         row_end(row);
@@ -168,19 +215,11 @@ static void run_translation(hard_row *row)
     promise(row, same_truth, 0, "%s_leaves_the_truth_as_it_is", row->about->name);
     memcpy(row->outcomes, worst, sizeof worst);
     for (int method = 0; method < METHOD_COUNT; method++) {
-        size_t count = 0;
-        for (size_t i = 0; i < PIXELS; i++)
-            count += seen[(size_t)method * PIXELS + i] == 3;
-        double flipped = 100.0 * (double)count / (double)surface;
         if (!worst[method].ran)
             continue;
-        /* Shadow edges of 10 m in all, half a texel to either side, t / sin 45 = 0.093 m long on the floor: 0.93 m^2.
-         */
-        promise(row, flipped <= (method == METHOD_VOLUMES ? 0 : 11), 0, "%s_%s_flips_as_derived", row->about->name,
-                method_names[method]);
+        check_flips(row, method, seen + (size_t)method * PIXELS, PIXELS, surface);
         promise(row, worst_own[method] <= own_limit[method], 0, "%s_%s_errs_as_derived", row->about->name,
                 method_names[method]);
-        row_remark(row, "%s%s %.1f", method ? ", " : "Flip: ", method_names[method], flipped);
     }
     row_remark(row, " %%.");
     free(seen);
@@ -311,7 +350,8 @@ static const hard_case cases[] = {
     {.name = "translation",
      .group = GROUP,
      .title = "light's box moved by 1/16 texel, 32 places",
-     .expected = "only pixels within half a texel of an edge flip.",
+     .expected = "pixels flip within half a texel of an edge, and where a method errs on its own: at most 0.4 % "
+                 "(constant, dual), 1.6 % (midpoint), 1.2 %.",
      .advice = "A box that is fitted anew makes edges crawl: set it once, or move it by whole texels.",
      .run = run_translation},
     {.name = "maps",
@@ -322,8 +362,8 @@ static const hard_case cases[] = {
      .run = run_maps},
     {.name = "images",
      .group = GROUP,
-     .title = "images of 1x1, 17x3, 161x119, 4096x1, 1x4096",
-     .expected = "as for 160x120.",
+     .title = "images of 1x1, 17x3, 3x17, 161x119, 4096x1, 1x4096",
+     .expected = "161x119: own errors as for 160x120; all: surfaces are those of the truth, and volumes agree with it.",
      .advice = "The figures are those of 161x119.",
      .run = run_images},
     {.name = "cuts",
