@@ -205,6 +205,7 @@ fi
 # shellcheck disable=SC2317
 was_caught() {
     cat "$folder/$1/result"
+    echo "alone: tests/faults/faults.sh --list '^$2\$'"
     grep -q '^caught' "$folder/$1/result"
 }
 
@@ -229,6 +230,6 @@ fi
 while IFS='|' read -r what name; do
     # shellcheck disable=SC2086
     set -- $what
-    check "$name ($2)$(sed -n 's/^caught/: caught by/p' "$folder/$1/result")" was_caught "$1"
+    check "$name ($2)$(sed -n 's/^caught/: caught by/p' "$folder/$1/result")" was_caught "$1" "$name"
 done <"$folder/faults"
 finish

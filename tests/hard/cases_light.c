@@ -155,7 +155,8 @@ static const hard_case cases[] = {
      .group = GROUP,
      .flags = LONG,
      .title = "sun at 20 degrees, floor solid",
-     .expected = "half a texel spans 1.37 texels: 2 texels suffice. Midpoint: the block's top near its back edge, 0.5 %",
+     .expected =
+         "half a texel spans 1.37 texels: 2 texels suffice. Midpoint: the block's top near its back edge, 0.5 %",
      .advice = "As it should be.",
      .build = build_solid_at_20,
      .by_hand = at_20_by_hand,
@@ -165,7 +166,8 @@ static const hard_case cases[] = {
      .group = GROUP,
      .flags = LONG,
      .title = "10 degrees",
-     .expected = "constant, dual: acne where 2.84 texels are spanned, 10.6 %; midpoint 0.5 %; second depth, mixed, auto none",
+     .expected =
+         "constant, dual: acne where 2.84 texels are spanned, 10.6 %; midpoint 0.5 %; second depth, mixed, auto none",
      .advice = "c texels serve down to atan(1 / 2c) above the surface: 2 texels 14 degrees, 8 texels 3.6.",
      .build = build_solid_at_10,
      .by_hand = at_10_by_hand,
@@ -252,7 +254,8 @@ static const hard_case cases[] = {
     {.name = "sheet_5_degrees",
      .group = GROUP,
      .title = "5 degrees, sheet",
-     .expected = "constant, dual, mixed with 2 texels: a quarter; second depth a third; midpoint 1.5 %; auto, 8 texels, none",
+     .expected =
+         "constant, dual, mixed with 2 texels: a quarter; second depth a third; midpoint 1.5 %; auto, 8 texels, none",
      .advice = "`auto` takes 8 texels where something is open.",
      .build = build_sheet_at_5,
      .by_hand = at_5_by_hand,
@@ -267,7 +270,8 @@ static const hard_case cases[] = {
      .group = GROUP,
      .flags = LONG,
      .title = "2 degrees, sheet",
-     .expected = "constant, dual 27.6 %, mixed 25.5 %, second depth 30 %; midpoint 1.75 %; auto, beyond 8 texels from a centre, 12 %",
+     .expected = "constant, dual 27.6 %, mixed 25.5 %, second depth 30 %; midpoint 1.75 %; auto, beyond 8 texels from "
+                 "a centre, 12 %",
      .advice = "8 texels serve down to 3.6 degrees.",
      .build = build_sheet_at_2,
      .by_hand = at_2_by_hand,

@@ -715,9 +715,8 @@ static const hard_case cases[] = {
     {.name = "camera_inside",
      .group = GROUP,
      .title = "camera inside a solid; all is dark",
-     .expected =
-         "second depth, mixed, auto: half of the floor and the far wall are lit, 28 %; constant, dual: a strip "
-         "below the ceiling, 1 %",
+     .expected = "second depth, mixed, auto: half of the floor and the far wall are lit, 28 %; constant, dual: a strip "
+                 "below the ceiling, 1 %",
      .advice = "A room is not a solid seen from outside: give its walls thickness, or mark it open.",
      .build = build_camera_inside,
      .by_hand = all_dark_by_hand,
@@ -725,8 +724,9 @@ static const hard_case cases[] = {
      .picture = METHOD_SECOND + 1,
      /* They are the back faces that the map holds, compared with themselves: of each texel the half nearer to the light
       * is lit. The floor fills 38.3 % of the picture, the far wall 16.8 %: 27.6 %; pixel by pixel 28.0 %. The floor's
-      * nearest row of texels, 5.5 %, is cut by the picture's edge: what its half gives or takes is 1.4 %. Constant, dual: what is within 2 t of the
-      * ceiling along the light, 0.088 m of the far wall's 1.2 m; it fills 1/8 of the picture: 1 %. */
+      * nearest row of texels, 5.5 %, is cut by the picture's edge: what its half gives or takes is 1.4 %. Constant,
+      * dual: what is within 2 t of the ceiling along the light, 0.088 m of the far wall's 1.2 m; it fills 1/8 of the
+      * picture: 1 %. */
      .methods = {[METHOD_CONSTANT] = LIGHT(0.5, 1.5),
                  [METHOD_DUAL] = LIGHT(0.5, 1.5),
                  [METHOD_SECOND] = LIGHT(26.6, 29.4),

@@ -383,7 +383,8 @@ static const hard_case cases[] = {
      .group = GROUP,
      .source = "W&M, section 2",
      .title = "the same and a ramp 8 degrees to the light",
-     .expected = "no constant bias is right: 2 texels leave acne on the ramp, 1.3 %; second depth needs none. Midpoint: the ramp's "
+     .expected = "no constant bias is right: 2 texels leave acne on the ramp, 1.3 %; second depth needs none. "
+                 "Midpoint: the ramp's "
                  "end, 0.7 % at most.",
      .advice = "For scenes of solids: second depth, which `auto` takes.",
      .build = build_table_and_ramp,
@@ -395,9 +396,8 @@ static const hard_case cases[] = {
       * figure is good to one: 0.26 % each, 1.3 % at most and the share of a pixel, 1.5 %. 2 t is less than the 2.31 t
       * at which a leg loses its shadow. Midpoint: the ramp is thin only where it ends; its last row at most, half of
       * it: 0.22 m x 0.5 m / 2, 0.7 %. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(0.5, 1.5),
-                 [METHOD_MIDPOINT] = SHADOW(0, 0.7),
-                 [METHOD_DUAL] = SHADOW(0.5, 1.5)}},
+     .methods =
+         {[METHOD_CONSTANT] = SHADOW(0.7, 1.5), [METHOD_MIDPOINT] = SHADOW(0, 0.7), [METHOD_DUAL] = SHADOW(0.7, 1.5)}},
     {.name = "thin_slab",
      .group = GROUP,
      .source = "W&M fig. 7",

@@ -164,11 +164,14 @@ static void take_triangles(footprint *f)
     footprint_triangle *t = f->triangles;
     for (uint32_t m = 0; m < f->packed->mesh_count; m++) {
         const gn_mesh *mesh = &f->packed->meshes[m];
-        const uint32_t *index = mesh->indices;
+        const uint32_t *wide = mesh->index_size == 4 ? mesh->indices : 0;
+        const uint16_t *narrow = mesh->index_size == 2 ? mesh->indices : 0;
         for (uint32_t i = 0; i < mesh->triangle_count; i++, t++) {
             double first[3], second[3];
-            for (int k = 0; k < 9; k++)
-                t->corner[k / 3][k % 3] = mesh->vertices[index[3 * i + k / 3]][k % 3];
+            for (uint32_t k = 0; k < 9; k++) {
+                uint32_t index = wide ? wide[3 * i + k / 3] : narrow[3 * i + k / 3];
+                t->corner[k / 3][k % 3] = mesh->vertices[index][k % 3];
+            }
             minus(first, t->corner[1], t->corner[0]);
             minus(second, t->corner[2], t->corner[0]);
             cross(t->normal, first, second);

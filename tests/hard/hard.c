@@ -243,7 +243,7 @@ static int do_case(const hard_case *c)
 
 static int do_cases(int names, char **name)
 {
-    const hard_list *lists[] = {&papers_cases, &light_cases, &geometry_cases, &number_cases, &sweep_cases};
+    const hard_list *lists[] = {&papers_cases, &light_cases, &geometry_cases, &number_cases, &file_cases, &sweep_cases};
     const char *group = "";
     int failed = 0, done = 0;
     for (size_t l = 0; l < sizeof lists / sizeof *lists; l++)

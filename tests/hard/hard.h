@@ -105,7 +105,7 @@ typedef struct hard_list {
     size_t count;
 } hard_list;
 
-extern const hard_list papers_cases, light_cases, geometry_cases, number_cases, sweep_cases;
+extern const hard_list papers_cases, light_cases, geometry_cases, number_cases, file_cases, sweep_cases;
 
 /* Count a promise, and report it as a line of TAP unless a table is being made. reason: not 0 where it is known not to
  * hold: then it is a TODO. Returns condition. */
@@ -134,6 +134,9 @@ double percent_of(const hard_row *row, uint64_t count);
 
 /* Build the scene, make the truth and check it. 0, or -1: a promise was broken, nothing can be measured. */
 int row_begin(hard_row *row, void (*build)(builder *b), int with_near);
+
+/* The same of the scene that row->packed, row->unit and row->origin hold already. with_checks: check the truth. */
+int row_begin_packed(hard_row *row, int with_near, int with_checks);
 
 /* Render with one method and measure. */
 void row_measure(hard_row *row, int method, const gn_settings *settings);

@@ -132,7 +132,6 @@ static void check_truth(hard_row *row)
 int row_begin(hard_row *row, void (*build)(builder *b), int with_near)
 {
     builder b;
-    problem why;
     build_begin(&b);
     build(&b);
     int failed = build_finish(&b, &row->packed);
@@ -144,9 +143,15 @@ int row_begin(hard_row *row, void (*build)(builder *b), int with_near)
         say("status %d", status);
         return -1;
     }
+    return row_begin_packed(row, with_near, row->about->build == build);
+}
+
+int row_begin_packed(hard_row *row, int with_near, int with_checks)
+{
+    problem why;
     const gn_settings *s = &row->packed.settings;
     footprint_make(&row->footprint, &row->packed);
-    failed = truth_make(&row->truth, &row->packed, s->width, s->height, 1, with_near, &why);
+    int failed = truth_make(&row->truth, &row->packed, s->width, s->height, 1, with_near, &why);
     if (!promise(row, !failed, 0, "%s_has_a_truth", row->about->name)) {
         say("%s", why.text);
         return -1;
@@ -156,7 +161,7 @@ int row_begin(hard_row *row, void (*build)(builder *b), int with_near)
     int count_ties = row->about->flags & COUNT_TIES;
     for (size_t i = 0; i < count; i++)
         row->near[i] = !count_ties && (row->truth.ties[i] || (row->truth.near && row->truth.near[i])) ? 255 : 0;
-    if (row->about->build == build)
+    if (with_checks)
         check_truth(row);
     return 0;
 }

@@ -105,13 +105,20 @@ what each method gives. The scenes and the derivations are `tests/hard`, and run
 
 `hard CASE...` runs some alone, `hard --write FOLDER` writes the scenes for `gnomon render`.
 
-Columns are methods: false shadow + false light against the exact truth, % of the pixels that see a surface, ties of the truth left out;
-16 bits of depth, image 160 x 120, map 64 x 64 (t = 1/16 m, three pixels) unless the case says otherwise. Bias 2 texels, `auto`'s 8.
+Columns are methods: false shadow + false light against the exact truth, % of the pixels that see a surface, ties of the truth and pixels
+near one left out (but counted for faces in one plane, which are about them); 16 bits of depth, image 160 x 120, map 64 x 64 (t = 1/16 m,
+three pixels) unless the case says otherwise; the sphere and the 360 directions have images of 80 x 60. Bias 2 texels, `auto`'s 8.
 
 **Bold: errors of the method's own.** A map answers for the centres of its texels. Where the truth at the texel's centre, moved along the
 light onto the receiver's plane, differs from the truth at the pixel, the error is the texel's: only a larger map helps. All others are the
 method's: acne, a bias that is too large, a leak. What a case expects are errors of that kind; every promise is one line of the test, also
-that there is no more of them. `-`: not run. `volumes` is to agree with the truth in every pixel.
+that there is no more of them. "The others none": no errors of their own, or the fraction of a per cent that the case's comment derives. The
+columns have both kinds, so that they may show more than what is expected. In the row of the L, constant, midpoint and dual are compared
+with one another; amounts are not derived. `-`: not run. `volumes` is to agree with the truth in every pixel that is not near a tie.
+
+The promises allow for pixels that fall on either side of a texel's border; the ranges and their derivations are in the comments of
+`tests/hard/cases_*.c`. A case that comes out as derived may well err: what to do then is in the last column, the causes are in
+[limits.md](limits.md).
 
 W&M: Wang & Molnar, *Second-Depth Shadow Mapping*, 1994. W&E: Weiskopf & Ertl, *Shadow Mapping Based on Dual Depth Layers*, 2003. What their
 figures claim came out, with two qualifications: in W&E fig. 2a the centre of the texel is lit, so that dual mapping halves an error that is
