@@ -100,7 +100,8 @@ static void shorten(const gn_view *view, gn_place *p)
         for (int i = 0; i < 3; i++)
             p->c[i] = gn_floor_shift_64(p->c[i] + 1, 1);
     p->c[2] = p->c[2] < 1 ? 1 : p->c[2];
-    int64_t reach = view->guard * p->c[2];
+    /* Clipping left |x| <= guard w; where w is but a few units rounding may leave more than can be projected. */
+    int64_t reach = (view->guard + 1) * p->c[2];
     p->c[0] = gn_clamp(p->c[0], -reach, reach);
     p->c[1] = gn_clamp(p->c[1], -reach, reach);
 }
