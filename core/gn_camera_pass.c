@@ -13,22 +13,14 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
         if (context->progress[i] != GN_REGION_DONE)
             return GN_NOT_READY;
     context->phase = GN_PHASE_CAMERA_FAILED; /* until all is well: the light pass's part is overwritten from here */
-    gn_lay_out_camera(context, &context->plan, &context->settings);
-    context->camera = *camera;
     int32_t largest_w;
-    int inside;
-    gn_status status =
-        gn_make_camera_view(&context->camera_view, camera, context->settings.width, context->settings.height);
-    if (status == GN_OK)
-        status = gn_transform_scene(context, &context->camera_view, &largest_w, &inside);
+    gn_status status = gn_begin_regions(context, camera, &largest_w);
     if (status == GN_OK)
         status = gn_make_shading(context, largest_w);
     if (status == GN_OK)
         status = gn_make_bins(context, &context->camera_view);
     if (status != GN_OK)
         return status;
-    for (uint32_t i = 0; i < context->settings.workers; i++)
-        gn_clear_colours(&context->workers[i]);
     context->phase = GN_PHASE_CAMERA;
     return GN_OK;
 }
@@ -37,7 +29,7 @@ gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker
                            gn_pixels *pixels)
 {
     gn_window window;
-    gn_status status = gn_find_region(context, region, worker, GN_PHASE_CAMERA, colour, mask, pixels, &window);
+    gn_status status = gn_find_region(context, region, worker, GN_PHASE_CAMERA, &colour, mask, pixels, &window);
     if (status != GN_OK)
         return status;
     gn_worker *w = &context->workers[worker];
@@ -55,11 +47,5 @@ gn_status gn_camera_pass(gn_context *context, const gn_camera *camera, gn_flush 
     if (!flush)
         return GN_BAD_ARGUMENT;
     gn_status status = gn_camera_begin(context, camera);
-    for (uint32_t i = 0; status == GN_OK && i < context->plan.camera_regions; i++) {
-        gn_pixels pixels;
-        status = gn_camera_region(context, i, 0, context->colour_buffer, context->mask_buffer, &pixels);
-        if (status == GN_OK && flush(user, &pixels))
-            status = GN_STOPPED;
-    }
-    return status;
+    return status == GN_OK ? gn_flush_regions(context, gn_camera_region, flush, user) : status;
 }

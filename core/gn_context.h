@@ -115,6 +115,13 @@ GN_INLINE void gn_triangle_indices(const gn_mesh *mesh, uint32_t triangle, uint3
 /* World position of a vertex. GN_OUT_OF_RANGE beyond GN_WORLD_MAX. */
 gn_status gn_world_position(const gn_object *object, uint32_t vertex, int32_t world[3]);
 
+/* Of a triangle's corners; its normal, |n| <= 2^53, by the way that they run; the way from a point to the light; and
+ * whether camera and light are on the same side of a triangle with that normal and a point on it, exactly. */
+gn_status gn_triangle_world(const gn_object *object, uint32_t triangle, int32_t world[3][3]);
+void gn_normal(int64_t n[3], int32_t world[3][3]);
+void gn_to_light(int32_t to_light[3], const gn_light *light, const int32_t point[3]);
+int gn_seen_lit(const gn_context *context, const int64_t n[3], const int32_t point[3]);
+
 /* GN_OUT_OF_RANGE where a number of the model is outside its stated range. */
 gn_status gn_check_model(const gn_model *model);
 
@@ -154,11 +161,28 @@ void gn_clear_colours(gn_worker *worker);
 uint32_t gn_colour_row(const gn_context *context, gn_worker *worker, const uint32_t *lit, const uint32_t *triangle,
                        int32_t count, void *colour, uint8_t *mask, uint32_t *tested);
 
-/* gn_region.c: check the arguments of a region's step and say where it lies; colours and mask of one of its rows. */
-gn_status gn_find_region(const gn_context *context, uint32_t region, uint32_t worker, gn_phase phase, void *colour,
+/* gn_region.c: what a camera's begin needs by either method; check the arguments of a region's step and say where it
+ * lies (*colour becomes 0 where none is wanted); colours and mask of one of its rows. */
+gn_status gn_begin_regions(gn_context *context, const gn_camera *camera, int32_t *largest_w);
+gn_status gn_find_region(const gn_context *context, uint32_t region, uint32_t worker, gn_phase phase, void **colour,
                          uint8_t *mask, gn_pixels *pixels, gn_window *window);
 void gn_colour_region_row(const gn_context *context, gn_worker *worker, void *colour, uint8_t *mask, uint32_t row,
                           uint32_t width);
+
+/* Render and flush every region, by a step that is known where this is inlined. */
+typedef gn_status gn_region_step(gn_context *context, uint32_t region, uint32_t worker, void *colour, uint8_t *mask,
+                                 gn_pixels *pixels);
+GN_INLINE gn_status gn_flush_regions(gn_context *context, gn_region_step *step, gn_flush flush, void *user)
+{
+    gn_status status = GN_OK;
+    for (uint32_t i = 0; status == GN_OK && i < context->plan.camera_regions; i++) {
+        gn_pixels pixels;
+        status = step(context, i, 0, context->colour_buffer, context->mask_buffer, &pixels);
+        if (status == GN_OK && flush(user, &pixels))
+            status = GN_STOPPED;
+    }
+    return status;
+}
 
 /* gn_visibility.c, gn_bins.c: depth and triangle for a region, from the triangles in its bins. */
 void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window *window);

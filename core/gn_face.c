@@ -182,8 +182,10 @@ gn_place gn_place_direction(const gn_view *view, const int32_t d[3])
 void gn_set_corner(gn_corner *c, const gn_view *view, const gn_light *light, const int32_t world[3])
 {
     (void)gn_view_place(view, world, &c->place);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; i++) {
+        c->world[i] = world[i];
         c->away[i] = light->kind == GN_SPOT ? world[i] - light->position[i] : light->forward[i];
+    }
     c->direction = gn_place_direction(view, c->away);
 }
 

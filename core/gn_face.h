@@ -21,6 +21,7 @@ typedef struct gn_outline {
 
 /* One end of a side: its place, and the way on from there, away from the light. */
 typedef struct gn_corner {
+    int32_t world[3]; /* not of the corner of a cut */
     gn_place place;
     int32_t away[3];    /* |.| <= 2^30 */
     gn_place direction; /* of away */

@@ -95,6 +95,12 @@ GN_INLINE unsigned gn_leading_zeros_64(uint64_t v)
     return high ? gn_leading_zeros(high) : 32 + gn_leading_zeros((uint32_t)v);
 }
 
+/* Smallest n with 2^n >= count; 32 at most. */
+GN_INLINE uint32_t gn_bits_for(uint32_t count)
+{
+    return count > 1 ? 32 - gn_leading_zeros(count - 1) : 0;
+}
+
 /* a b, exactly. */
 #if GN_SLOW_MULTIPLY
 uint64_t gn_multiply_u_slow(uint32_t a, uint32_t b);

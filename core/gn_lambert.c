@@ -54,24 +54,14 @@ void gn_make_pair(const gn_context *context, gn_colour_pair *pair, uint32_t tria
     }
     const gn_object *object = &context->scene->objects[triangle >> context->triangle_bits];
     const gn_light *light = &context->light;
-    const gn_camera *camera = &context->camera;
-    uint32_t index[3];
-    int32_t p[3][3], edge[2][3], to_camera[3], to_light[3], unit[3];
+    int32_t world[3][3], to_light[3], unit[3];
     int64_t n[3];
-    gn_triangle_indices(object->mesh, triangle & (((uint32_t)1 << context->triangle_bits) - 1), index);
-    for (int i = 0; i < 3; i++)
-        (void)gn_world_position(object, index[i], p[i]);
-    for (int i = 0; i < 3; i++) {
-        edge[0][i] = p[1][i] - p[0][i];
-        edge[1][i] = p[2][i] - p[0][i];
-        to_camera[i] = camera->projection == GN_PERSPECTIVE ? camera->eye[i] - p[0][i] : -camera->forward[i];
-        to_light[i] = light->kind == GN_SPOT ? light->position[i] - p[0][i] : -light->forward[i];
-    }
-    gn_cross(n, edge[0], edge[1]);
+    (void)gn_triangle_world(object, triangle & (((uint32_t)1 << context->triangle_bits) - 1), world);
+    gn_normal(n, world);
     pair->lit = pair->unlit = gn_pack(object->colour, gn_intensity(context, 0), format);
-    int side = gn_dot_sign(n, to_light);
-    if (side == 0 || side != gn_dot_sign(n, to_camera))
+    if (!gn_seen_lit(context, n, world[0]))
         return;
+    gn_to_light(to_light, light, world[0]);
     pair->faces_light = 1;
     normalise(unit, n);
     uint32_t length = gn_square_root(magnitude_dot(unit, unit));

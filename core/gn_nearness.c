@@ -1,13 +1,5 @@
 #include "gn_nearness.h"
 
-static uint8_t bits_of(int32_t size)
-{
-    uint8_t bits = 0;
-    while (1 << bits < size)
-        bits++;
-    return bits;
-}
-
 void gn_make_eye(gn_eye *eye, const gn_camera *camera, int32_t width, int32_t height)
 {
     for (int i = 0; i < 3; i++) {
@@ -19,8 +11,8 @@ void gn_make_eye(gn_eye *eye, const gn_camera *camera, int32_t width, int32_t he
     eye->perspective = camera->projection == GN_PERSPECTIVE;
     eye->width = width;
     eye->height = height;
-    eye->width_bits = bits_of(width);
-    eye->height_bits = bits_of(height);
+    eye->width_bits = (uint8_t)gn_bits_for((uint32_t)width);
+    eye->height_bits = (uint8_t)gn_bits_for((uint32_t)height);
     eye->near_depth = camera->near_depth;
     gn_wide over_height = gn_wide_reciprocal(gn_widen(height, 0));
     if (eye->perspective) {

@@ -52,14 +52,6 @@ static gn_status check_mesh(const gn_mesh *mesh)
     return GN_OK;
 }
 
-static uint32_t bits_for(uint32_t count)
-{
-    uint32_t bits = 0;
-    while (bits < 32 && ((uint64_t)1 << bits) < count)
-        bits++;
-    return bits;
-}
-
 /* Whether all meshes are closed, and the bits of a triangle's and an edge's number. */
 typedef struct counts {
     int closed;
@@ -94,10 +86,10 @@ static gn_status check_scene(const gn_scene *scene, gn_plan *plan, counts *c)
         if (!object->mesh->closed)
             c->closed = 0;
     }
-    c->triangle_bits = bits_for(most);
-    c->edge_bits = bits_for(most_edges);
+    c->triangle_bits = gn_bits_for(most);
+    c->edge_bits = gn_bits_for(most_edges);
     /* the highest identifier is kept for "no triangle" */
-    if (bits_for(scene->object_count + 1) + c->triangle_bits > 32 || triangles >= (1u << 28) ||
+    if (gn_bits_for(scene->object_count + 1) + c->triangle_bits > 32 || triangles >= (1u << 28) ||
         vertices >= (1u << 28) || edges >= (1u << 30))
         return GN_TOO_MANY;
     plan->triangles = (uint32_t)triangles;
@@ -133,7 +125,7 @@ static gn_status check_volumes(const gn_scene *scene, const counts *c)
     for (uint32_t i = 0; i < scene->object_count; i++)
         if (scene->objects[i].mesh->triangle_count && !scene->objects[i].mesh->edges)
             return GN_UNSUPPORTED;
-    return bits_for(scene->object_count) + c->edge_bits > 32 ? GN_TOO_MANY : GN_OK;
+    return gn_bits_for(scene->object_count) + c->edge_bits > 32 ? GN_TOO_MANY : GN_OK;
 }
 
 /* Sizes are summed in 64 bits: on a 32-bit machine a plan may exceed the address space. */

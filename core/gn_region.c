@@ -1,7 +1,21 @@
 /* Regions of the image: where they lie, and what is written of them. Shared by shadow maps and shadow volumes. */
 #include "gn_context.h"
 
-gn_status gn_find_region(const gn_context *context, uint32_t region, uint32_t worker, gn_phase phase, void *colour,
+gn_status gn_begin_regions(gn_context *context, const gn_camera *camera, int32_t *largest_w)
+{
+    int inside;
+    gn_lay_out_camera(context, &context->plan, &context->settings);
+    context->camera = *camera;
+    gn_status status =
+        gn_make_camera_view(&context->camera_view, camera, context->settings.width, context->settings.height);
+    if (status == GN_OK)
+        status = gn_transform_scene(context, &context->camera_view, largest_w, &inside);
+    for (uint32_t i = 0; i < context->settings.workers; i++)
+        gn_clear_colours(&context->workers[i]);
+    return status;
+}
+
+gn_status gn_find_region(const gn_context *context, uint32_t region, uint32_t worker, gn_phase phase, void **colour,
                          uint8_t *mask, gn_pixels *pixels, gn_window *window)
 {
     if (!context || !pixels || worker >= context->settings.workers || region >= context->plan.camera_regions)
@@ -16,14 +30,14 @@ gn_status gn_find_region(const gn_context *context, uint32_t region, uint32_t wo
     width = width > plan->region_width ? plan->region_width : width;
     height = height > plan->region_height ? plan->region_height : height;
     if (settings->format == GN_NO_COLOUR)
-        colour = 0;
-    if (settings->format == GN_RGB565 && (uintptr_t)colour % 2)
+        *colour = 0;
+    if (settings->format == GN_RGB565 && (uintptr_t)*colour % 2)
         return GN_MISALIGNED;
     pixels->x = (uint16_t)x;
     pixels->y = (uint16_t)y;
     pixels->width = (uint16_t)width;
     pixels->height = (uint16_t)height;
-    pixels->colour = colour;
+    pixels->colour = *colour;
     pixels->mask = mask;
     window->column0 = (int32_t)x;
     window->row0 = (int32_t)y;
@@ -36,8 +50,6 @@ void gn_colour_region_row(const gn_context *context, gn_worker *worker, void *co
                           uint32_t width)
 {
     uint32_t from = row * width, pixel_bytes = context->settings.format == GN_RGB888 ? 3 : 2, tested = 0;
-    if (context->settings.format == GN_NO_COLOUR)
-        colour = 0;
     uint32_t seen =
         gn_colour_row(context, worker, worker->q + from, worker->triangle + from, (int32_t)width,
                       colour ? (uint8_t *)colour + (size_t)from * pixel_bytes : 0, mask ? mask + from : 0, &tested);

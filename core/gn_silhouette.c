@@ -10,28 +10,19 @@ static void half_edge_ends(const gn_mesh *mesh, uint32_t half, uint32_t ends[2])
 
 int gn_light_side(const gn_light *light, int32_t world[3][3])
 {
-    int32_t edge[2][3], to_light[3];
+    int32_t to_light[3];
     int64_t n[3];
-    for (int i = 0; i < 3; i++) {
-        edge[0][i] = world[1][i] - world[0][i];
-        edge[1][i] = world[2][i] - world[0][i];
-        to_light[i] = light->kind == GN_SPOT ? light->position[i] - world[0][i] : -light->forward[i];
-    }
-    gn_cross(n, edge[0], edge[1]);
+    gn_normal(n, world);
+    gn_to_light(to_light, light, world[0]);
     return gn_dot_sign(n, to_light);
 }
 
-/* How many corners lie at or beyond the near plane of a spot light. */
-static int corners_beyond(const gn_light *light, int32_t world[3][3])
+int64_t gn_beyond_near(const gn_light *light, const int32_t point[3])
 {
-    int count = 0;
-    for (int v = 0; v < 3; v++) {
-        int64_t w = 0;
-        for (int i = 0; i < 3; i++)
-            w += gn_multiply(world[v][i] - light->position[i], light->forward[i]);
-        count += w >= gn_multiply(light->near_depth, 1 << 30);
-    }
-    return count;
+    int64_t w = 0;
+    for (int i = 0; i < 3; i++)
+        w += gn_multiply(point[i] - light->position[i], light->forward[i]);
+    return w - gn_multiply(light->near_depth, 1 << 30);
 }
 
 static gn_facing find_facing(const gn_light *light, int32_t world[3][3])
@@ -40,7 +31,9 @@ static gn_facing find_facing(const gn_light *light, int32_t world[3][3])
     if (side == 0)
         return GN_CASTS_NOTHING;
     if (light->kind == GN_SPOT) {
-        int beyond = corners_beyond(light, world);
+        int beyond = 0; /* corners at or beyond the near plane */
+        for (int i = 0; i < 3; i++)
+            beyond += gn_beyond_near(light, world[i]) >= 0;
         if (beyond < 3)
             return beyond ? GN_CROSSES_NEAR : GN_CASTS_NOTHING;
     }
@@ -57,11 +50,9 @@ gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t 
             return GN_OUT_OF_RANGE;
         for (uint32_t t = 0; t < object->mesh->triangle_count; t++, number++) {
             int32_t world[3][3];
-            uint32_t index[3], shift = 2 * (number & 3);
-            gn_triangle_indices(object->mesh, t, index);
-            for (int i = 0; i < 3; i++)
-                if (gn_world_position(object, index[i], world[i]) != GN_OK)
-                    return GN_OUT_OF_RANGE;
+            uint32_t shift = 2 * (number & 3);
+            if (gn_triangle_world(object, t, world) != GN_OK)
+                return GN_OUT_OF_RANGE;
             uint32_t facing = find_facing(light, world);
             *crossing += facing == GN_CROSSES_NEAR;
             facings[number >> 2] = (uint8_t)((facings[number >> 2] & ~(3u << shift)) | facing << shift);

@@ -38,6 +38,9 @@ GN_INLINE int32_t gn_facing_sign(gn_facing facing)
 /* The way a triangle's corners run as the light sees them, exactly: 1 counter-clockwise, -1 clockwise, 0 edge-on. */
 int gn_light_side(const gn_light *light, int32_t world[3][3]);
 
+/* How far a point lies beyond the near plane of a spot light, in 2^-30 units. */
+int64_t gn_beyond_near(const gn_light *light, const int32_t point[3]);
+
 /* Fill facings (2 bits a triangle). *crossing: how many cross the near plane. GN_OUT_OF_RANGE: a vertex or a model. */
 gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t *facings, uint32_t *crossing);
 

@@ -44,6 +44,44 @@ void gn_cross(int64_t n[3], const int32_t a[3], const int32_t b[3])
     }
 }
 
+gn_status gn_triangle_world(const gn_object *object, uint32_t triangle, int32_t world[3][3])
+{
+    gn_status status = GN_OK;
+    uint32_t index[3];
+    gn_triangle_indices(object->mesh, triangle, index);
+    for (int i = 0; i < 3; i++)
+        if (gn_world_position(object, index[i], world[i]) != GN_OK)
+            status = GN_OUT_OF_RANGE;
+    return status;
+}
+
+void gn_normal(int64_t n[3], int32_t world[3][3])
+{
+    int32_t edge[2][3];
+    for (int i = 0; i < 3; i++) {
+        edge[0][i] = world[1][i] - world[0][i];
+        edge[1][i] = world[2][i] - world[0][i];
+    }
+    gn_cross(n, edge[0], edge[1]);
+}
+
+void gn_to_light(int32_t to_light[3], const gn_light *light, const int32_t point[3])
+{
+    for (int i = 0; i < 3; i++)
+        to_light[i] = light->kind == GN_SPOT ? light->position[i] - point[i] : -light->forward[i];
+}
+
+int gn_seen_lit(const gn_context *context, const int64_t n[3], const int32_t point[3])
+{
+    const gn_camera *camera = &context->camera;
+    int32_t to_light[3], to_camera[3];
+    gn_to_light(to_light, &context->light, point);
+    for (int i = 0; i < 3; i++)
+        to_camera[i] = camera->projection == GN_PERSPECTIVE ? camera->eye[i] - point[i] : -camera->forward[i];
+    int side = gn_dot_sign(n, to_light);
+    return side && side == gn_dot_sign(n, to_camera);
+}
+
 gn_status gn_check_model(const gn_model *model)
 {
     if (model->shift > 62)

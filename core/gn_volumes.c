@@ -10,8 +10,8 @@
  * Counting is z-fail: faces behind the visible point, +1 where they turn away from the camera, -1 where they turn to
  * it; what the near plane cuts off is before every point and never missed. Nothing is cut at the far plane. A cap is
  * behind the visible point of every pixel that it covers, or is the point's own triangle: no comparison (but with the
- * near plane of an orthographic camera, which cuts nothing here). A lid is at
- * infinity: no comparison. It is drawn as a fan from the light's axis over the silhouette edges.
+ * near plane of an orthographic camera, which cuts nothing here). A lid is at infinity: no comparison. It is drawn as a
+ * fan from the light's axis over the silhouette edges.
  * Sides compare nearness (gn_nearness.h), held to the range of their corners: of the point, on its triangle's plane,
  * and of the side. A side over an edge of the point's own triangle is always behind: it lies on the other side of the
  * triangle's plane from light and camera. (Without that rule a pixel that snapping has moved past the edge could find
@@ -60,34 +60,41 @@ static int32_t find_edge(const gn_context *context, const gn_silhouette *s, int3
     return winding;
 }
 
-static GN_NOINLINE void draw_silhouette(gn_volume_region *r, const gn_silhouette *s)
+void gn_count_side(gn_volume_region *r, const gn_corner *a, const gn_corner *b, int32_t winding, const gn_reach *reach)
 {
     const gn_light *light = &r->context->light;
     const gn_view *view = &r->volumes->view;
     const gn_eye *eye = &r->volumes->eye;
-    int32_t world[2][3], along[3], apart[3];
+    int spot = light->kind == GN_SPOT;
+    int32_t along[3], apart[3];
     int64_t n[3];
-    gn_corner ends[2];
-    gn_outline side, lid;
-    int32_t winding = find_edge(r->context, s, world, r->target.own);
-    gn_reach reach = gn_empty_reach();
-    for (int i = 0; i < 2; i++) {
-        gn_set_corner(&ends[i], view, light, world[i]);
-        gn_reach_point(&reach, eye, world[i]);
-        gn_reach_ray(&reach, eye, ends[i].away);
+    gn_outline o;
+    for (int i = 0; i < 3; i++) {
+        along[i] = spot ? b->away[i] : b->world[i] - a->world[i];
+        apart[i] = (spot ? light->position[i] : a->world[i]) - eye->position[i];
     }
-    gn_make_side(&side, view, light, &ends[0], &ends[1]);
-    for (int i = 0; i < 3; i++)
-        along[i] = light->kind == GN_SPOT ? ends[1].away[i] : world[1][i] - world[0][i];
-    gn_cross(n, ends[0].away, along);
-    for (int i = 0; i < 3; i++)
-        apart[i] = world[0][i] - eye->position[i];
-    gn_set_plane(&r->target, eye, n, gn_wide_dot(n, apart), &reach);
-    gn_count_outline(&r->target, &side, winding, r->window, GN_COMPARED);
-    if (light->kind != GN_SPOT || view->affine)
+    gn_cross(n, a->away, along);
+    gn_make_side(&o, view, light, a, b);
+    gn_set_plane(&r->target, eye, n, gn_wide_dot(n, apart), reach);
+    gn_count_outline(&r->target, &o, winding, r->window, GN_COMPARED);
+    if (!spot || view->affine)
         return;
-    gn_make_lid(&lid, view, &r->axis, &ends[0], &ends[1]);
-    gn_count_outline(&r->target, &lid, winding, r->window, GN_BEHIND);
+    gn_make_lid(&o, view, &r->volumes->axis, a, b);
+    gn_count_outline(&r->target, &o, winding, r->window, GN_BEHIND);
+}
+
+static GN_NOINLINE void draw_silhouette(gn_volume_region *r, const gn_silhouette *s)
+{
+    int32_t world[2][3];
+    gn_corner ends[2];
+    gn_reach reach = gn_empty_reach();
+    int32_t winding = find_edge(r->context, s, world, r->target.own);
+    for (int i = 0; i < 2; i++) {
+        gn_set_corner(&ends[i], &r->volumes->view, &r->context->light, world[i]);
+        gn_reach_point(&reach, &r->volumes->eye, world[i]);
+        gn_reach_ray(&reach, &r->volumes->eye, ends[i].away);
+    }
+    gn_count_side(r, &ends[0], &ends[1], winding, &reach);
 }
 
 static void draw_silhouettes(gn_volume_region *r)
@@ -101,46 +108,41 @@ static void draw_silhouettes(gn_volume_region *r)
 
 /* ---- caps ------------------------------------------------------------------------------------------------------ */
 
-void gn_count_cap(gn_volume_region *r, const gn_outline *o, uint32_t identifier, int32_t world[3][3], int32_t winding)
+void gn_count_cap(gn_volume_region *r, gn_face *cap, uint32_t identifier, int32_t world[3][3], int32_t winding)
 {
     const gn_eye *eye = &r->volumes->eye;
+    gn_outline o;
+    gn_project_face(&r->volumes->view, cap, &o);
     if (eye->perspective) {
-        gn_count_outline(&r->target, o, winding, r->window, GN_BEHIND);
+        gn_count_outline(&r->target, &o, winding, r->window, GN_BEHIND);
         return;
     }
     gn_reach reach = gn_empty_reach();
-    int32_t edge[2][3], apart[3];
+    int32_t apart[3];
     int64_t n[3];
     for (int i = 0; i < 3; i++) {
         gn_reach_point(&reach, eye, world[i]);
-        edge[0][i] = world[1][i] - world[0][i];
-        edge[1][i] = world[2][i] - world[0][i];
         apart[i] = world[0][i] - eye->position[i];
     }
-    gn_cross(n, edge[0], edge[1]);
+    gn_normal(n, world);
     gn_set_plane(&r->target, eye, n, gn_wide_dot(n, apart), &reach);
     r->target.own[0] = identifier;
     r->target.limit = 1 - r->context->camera.near_depth * ((int64_t)1 << 32);
-    gn_count_outline(&r->target, o, winding, r->window, GN_BEYOND);
+    gn_count_outline(&r->target, &o, winding, r->window, GN_BEYOND);
 }
 
 static GN_NOINLINE void draw_clipped_cap(gn_volume_region *r, uint32_t number, uint32_t triangle, int32_t winding)
 {
-    const gn_object *object = &r->context->scene->objects[number];
     int32_t world[3][3];
-    uint32_t index[3];
-    gn_face f;
-    gn_outline o;
-    gn_triangle_indices(object->mesh, triangle, index);
-    f.count = 0;
+    gn_face cap;
+    cap.count = 0;
+    (void)gn_triangle_world(&r->context->scene->objects[number], triangle, world);
     for (int i = 0; i < 3; i++) {
         gn_place place;
-        (void)gn_world_position(object, index[i], world[i]);
         (void)gn_view_place(&r->volumes->view, world[i], &place);
-        gn_add_corner(&f, &place, 0);
+        gn_add_corner(&cap, &place, 0);
     }
-    gn_project_face(&r->volumes->view, &f, &o);
-    gn_count_cap(r, &o, number << r->context->triangle_bits | triangle, world, winding);
+    gn_count_cap(r, &cap, number << r->context->triangle_bits | triangle, world, winding);
 }
 
 GN_INLINE void draw_cap(void *user, uint32_t number, uint32_t triangle)
@@ -171,36 +173,25 @@ static GN_NOINLINE void draw_caps(gn_volume_region *r)
 
 static GN_NOINLINE void set_seen_plane(const gn_context *context, gn_seen_plane *seen, uint32_t identifier)
 {
-    const gn_volumes *volumes = context->volumes;
-    const gn_camera *camera = &context->camera;
-    int32_t world[3][3], edge[2][3], to_camera[3];
+    const gn_eye *eye = &context->volumes->eye;
+    int32_t world[3][3], apart[3];
     int64_t n[3];
-    uint32_t index[3];
     seen->triangle = identifier;
     seen->counts = 0;
     if (identifier == GN_NO_TRIANGLE)
         return;
     const gn_object *object = &context->scene->objects[identifier >> context->triangle_bits];
-    gn_triangle_indices(object->mesh, identifier & (((uint32_t)1 << context->triangle_bits) - 1), index);
-    seen->reach = gn_empty_reach();
-    for (int i = 0; i < 3; i++) {
-        (void)gn_world_position(object, index[i], world[i]);
-        gn_reach_point(&seen->reach, &volumes->eye, world[i]);
-    }
-    for (int i = 0; i < 3; i++) {
-        edge[0][i] = world[1][i] - world[0][i];
-        edge[1][i] = world[2][i] - world[0][i];
-        to_camera[i] = camera->projection == GN_PERSPECTIVE ? camera->eye[i] - world[0][i] : -camera->forward[i];
-    }
-    gn_cross(n, edge[0], edge[1]);
-    int side = gn_light_side(&context->light, world);
-    if (side == 0 || side != gn_dot_sign(n, to_camera))
+    (void)gn_triangle_world(object, identifier & (((uint32_t)1 << context->triangle_bits) - 1), world);
+    gn_normal(n, world);
+    if (!gn_seen_lit(context, n, world[0]))
         return;
     seen->counts = 1;
-    int32_t apart[3];
-    for (int i = 0; i < 3; i++)
-        apart[i] = world[0][i] - camera->eye[i];
-    gn_make_nearness(&seen->plane, &volumes->eye, n, gn_wide_dot(n, apart));
+    seen->reach = gn_empty_reach();
+    for (int i = 0; i < 3; i++) {
+        gn_reach_point(&seen->reach, eye, world[i]);
+        apart[i] = world[0][i] - eye->position[i];
+    }
+    gn_make_nearness(&seen->plane, eye, n, gn_wide_dot(n, apart));
 }
 
 /* Nearness of the points of a row; below every face where nothing is counted. */
@@ -263,7 +254,7 @@ static void find_rows(gn_context *context)
 {
     gn_volumes *volumes = context->volumes;
     const gn_light *light = &context->light;
-    gn_place axis = gn_place_direction(&volumes->view, light->forward);
+    volumes->axis = gn_place_direction(&volumes->view, light->forward);
     volumes->outside = light->kind == GN_SPOT ? GN_FRUSTUM_WINDING : 0;
     if (light->kind == GN_SPOT && volumes->view.affine && volumes->crossing)
         volumes->outside = (uint16_t)(volumes->outside + gn_cut_lids_along_view(context));
@@ -286,7 +277,7 @@ static void find_rows(gn_context *context)
             volumes->outside = (uint16_t)(volumes->outside + gn_lid_along_view(context, &ends[0], &ends[1], winding));
             continue;
         }
-        gn_make_lid(&o, &volumes->view, &axis, &ends[0], &ends[1]);
+        gn_make_lid(&o, &volumes->view, &volumes->axis, &ends[0], &ends[1]);
         add_rows(s, &o, context->settings.height);
     }
 }
@@ -301,14 +292,8 @@ gn_status gn_volumes_begin(gn_context *context, const gn_camera *camera)
         return GN_NOT_READY;
     gn_volumes *volumes = context->volumes;
     context->phase = GN_PHASE_VOLUMES_LIGHT;
-    gn_lay_out_camera(context, &context->plan, &context->settings);
-    context->camera = *camera;
     int32_t largest_w;
-    int inside;
-    gn_status status =
-        gn_make_camera_view(&context->camera_view, camera, context->settings.width, context->settings.height);
-    if (status == GN_OK)
-        status = gn_transform_scene(context, &context->camera_view, &largest_w, &inside);
+    gn_status status = gn_begin_regions(context, camera, &largest_w);
     if (status != GN_OK)
         return status;
     volumes->view = context->camera_view;
@@ -323,11 +308,9 @@ gn_status gn_volumes_begin(gn_context *context, const gn_camera *camera)
     if (status != GN_OK)
         return status;
     find_rows(context);
-    for (uint32_t i = 0; i < context->settings.workers; i++) {
-        gn_clear_colours(&context->workers[i]);
+    for (uint32_t i = 0; i < context->settings.workers; i++)
         for (uint32_t k = 0; k < GN_COLOUR_CACHE; k++)
             volumes->workers[i].planes[k].triangle = GN_NO_TRIANGLE;
-    }
     context->phase = GN_PHASE_VOLUMES;
     return GN_OK;
 }
@@ -340,7 +323,6 @@ static void count_volumes(gn_context *context, uint32_t worker, const gn_window 
     r.context = context;
     r.volumes = volumes;
     r.window = window;
-    r.axis = gn_place_direction(&volumes->view, context->light.forward);
     r.target.count = w->count;
     r.target.point = w->point;
     r.target.triangle = context->workers[worker].triangle;
@@ -363,7 +345,7 @@ gn_status gn_volumes_region(gn_context *context, uint32_t number, uint32_t worke
                             gn_pixels *pixels)
 {
     gn_window window;
-    gn_status status = gn_find_region(context, number, worker, GN_PHASE_VOLUMES, colour, mask, pixels, &window);
+    gn_status status = gn_find_region(context, number, worker, GN_PHASE_VOLUMES, &colour, mask, pixels, &window);
     if (status != GN_OK)
         return status;
     gn_worker *w = &context->workers[worker];
@@ -391,11 +373,5 @@ gn_status gn_volumes_pass(gn_context *context, const gn_camera *camera, gn_flush
     if (!flush)
         return GN_BAD_ARGUMENT;
     gn_status status = gn_volumes_begin(context, camera);
-    for (uint32_t i = 0; status == GN_OK && i < context->plan.camera_regions; i++) {
-        gn_pixels pixels;
-        status = gn_volumes_region(context, i, 0, context->colour_buffer, context->mask_buffer, &pixels);
-        if (status == GN_OK && flush(user, &pixels))
-            status = GN_STOPPED;
-    }
-    return status;
+    return status == GN_OK ? gn_flush_regions(context, gn_volumes_region, flush, user) : status;
 }

@@ -21,7 +21,8 @@ typedef struct gn_volumes_worker {
 
 typedef struct gn_volumes {
     gn_eye eye;
-    gn_view view; /* the camera's, without a far plane: faces behind every visible point count */
+    gn_view view;  /* the camera's, without a far plane: faces behind every visible point count */
+    gn_place axis; /* of the light's forward, at infinity */
     uint8_t *facings;
     gn_silhouette *silhouettes;
     uint32_t silhouette_count, edge_bits;
@@ -38,13 +39,15 @@ typedef struct gn_volume_region {
     const gn_context *context;
     const gn_volumes *volumes;
     const gn_window *window;
-    gn_place axis; /* of the light's forward, at infinity */
     gn_volume_target target;
 } gn_volume_region;
 
-/* A cap that is clipped: behind the visible point wherever it is seen at all. An orthographic camera's near plane does
- * not clip it, so there the part beyond that plane counts. */
-void gn_count_cap(gn_volume_region *r, const gn_outline *o, uint32_t identifier, int32_t world[3][3], int32_t winding);
+/* A side between two corners, and its part of the lid. reach: of what it hangs from and of both ways on. */
+void gn_count_side(gn_volume_region *r, const gn_corner *a, const gn_corner *b, int32_t winding, const gn_reach *reach);
+
+/* A cap that is clipped, a polygon: behind the visible point wherever it is seen at all. An orthographic camera's near
+ * plane does not clip it, so there the part beyond that plane counts. world: of the whole triangle. */
+void gn_count_cap(gn_volume_region *r, gn_face *cap, uint32_t identifier, int32_t world[3][3], int32_t winding);
 
 /* gn_volumes_spot.c: volumes of triangles that the near plane of a spot light cuts; the frustum; and how often the
  * part of a lid over the edge from a to b covers the one direction in which an orthographic

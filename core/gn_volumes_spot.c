@@ -11,14 +11,6 @@ typedef struct cut {
     int32_t count, winding;
 } cut;
 
-static int64_t beyond_near(const gn_light *light, const int32_t world[3])
-{
-    int64_t w = 0;
-    for (int i = 0; i < 3; i++)
-        w += gn_multiply(world[i] - light->position[i], light->forward[i]);
-    return w - gn_multiply(light->near_depth, 1 << 30);
-}
-
 /* Where the edge crosses the plane: the same for both triangles on it. */
 static void set_cut(gn_corner *c, const gn_view *view, const gn_corner *a, const gn_corner *b, int64_t da, int64_t db)
 {
@@ -41,12 +33,10 @@ static void find_cut(cut *out, const gn_context *context, const gn_object *objec
     const gn_light *light = &context->light;
     gn_corner corners[3];
     int64_t d[3];
-    uint32_t index[3];
-    gn_triangle_indices(object->mesh, triangle, index);
+    (void)gn_triangle_world(object, triangle, out->world);
     for (int i = 0; i < 3; i++) {
-        (void)gn_world_position(object, index[i], out->world[i]);
         gn_set_corner(&corners[i], view, light, out->world[i]);
-        d[i] = beyond_near(light, out->world[i]);
+        d[i] = gn_beyond_near(light, out->world[i]);
     }
     out->winding = gn_light_side(light, out->world);
     out->count = 0;
@@ -61,39 +51,22 @@ static void find_cut(cut *out, const gn_context *context, const gn_object *objec
 
 static void draw_cut_volume(gn_volume_region *r, uint32_t number, uint32_t triangle)
 {
-    const gn_light *light = &r->context->light;
-    const gn_view *view = &r->volumes->view;
     const gn_eye *eye = &r->volumes->eye;
     gn_reach reach = gn_empty_reach();
-    int32_t apart[3];
     cut c = {.count = 0};
     gn_face cap;
-    gn_outline o;
     find_cut(&c, r->context, &r->context->scene->objects[number], triangle);
     cap.count = 0;
-    for (int32_t i = 0; i < c.count; i++)
-        gn_add_corner(&cap, &c.corners[i].place, 0);
-    gn_project_face(view, &cap, &o);
-    gn_count_cap(r, &o, number << r->context->triangle_bits | triangle, c.world, c.winding);
-    r->target.own[0] = r->target.own[1] = GN_NO_TRIANGLE;
-    for (int i = 0; i < 3; i++) {
-        gn_reach_point(&reach, eye, c.world[i]);
-        apart[i] = light->position[i] - eye->position[i];
-    }
-    for (int32_t i = 0; i < c.count; i++)
-        gn_reach_ray(&reach, eye, c.corners[i].away);
     for (int32_t i = 0; i < c.count; i++) {
-        const gn_corner *a = &c.corners[i], *b = &c.corners[i + 1 < c.count ? i + 1 : 0];
-        int64_t n[3];
-        gn_cross(n, a->away, b->away);
-        gn_make_side(&o, view, light, a, b);
-        gn_set_plane(&r->target, eye, n, gn_wide_dot(n, apart), &reach);
-        gn_count_outline(&r->target, &o, c.winding, r->window, GN_COMPARED);
-        if (view->affine)
-            continue;
-        gn_make_lid(&o, view, &r->axis, a, b);
-        gn_count_outline(&r->target, &o, c.winding, r->window, GN_BEHIND);
+        gn_add_corner(&cap, &c.corners[i].place, 0);
+        gn_reach_ray(&reach, eye, c.corners[i].away);
     }
+    for (int i = 0; i < 3; i++)
+        gn_reach_point(&reach, eye, c.world[i]);
+    gn_count_cap(r, &cap, number << r->context->triangle_bits | triangle, c.world, c.winding);
+    r->target.own[0] = r->target.own[1] = GN_NO_TRIANGLE;
+    for (int32_t i = 0; i < c.count; i++)
+        gn_count_side(r, &c.corners[i], &c.corners[i + 1 < c.count ? i + 1 : 0], c.winding, &reach);
 }
 
 void gn_count_cut_volumes(gn_volume_region *r)
@@ -107,41 +80,36 @@ void gn_count_cut_volumes(gn_volume_region *r)
 
 /* ---- the frustum of a spot light ------------------------------------------------------------------------------- */
 
-/* Its corners: bit 0 right, bit 1 above, bit 2 far. */
+/* m . P of one of its corners P: bit 0 right, bit 1 above, bit 2 far. |m| <= 2^30. */
+static gn_wide along_corner(const int32_t m[3], const gn_light *light, int which)
+{
+    const int64_t n[3] = {m[0], m[1], m[2]};
+    gn_wide tangent = gn_widen(light->tan_half, -24);
+    gn_wide depth = gn_widen(which & 4 ? light->far_depth : light->near_depth, -30);
+    gn_wide right = gn_wide_multiply(gn_wide_dot(n, light->right), tangent);
+    gn_wide up = gn_wide_multiply(gn_wide_dot(n, light->up), tangent);
+    gn_wide sum = gn_wide_add(gn_wide_dot(n, light->forward), which & 1 ? right : gn_wide_negate(right));
+    sum = gn_wide_multiply(gn_wide_add(sum, which & 2 ? up : gn_wide_negate(up)), depth);
+    return gn_wide_add(sum, gn_wide_dot(n, light->position));
+}
+
 static gn_place frustum_corner(const gn_view *view, const gn_light *light, int which)
 {
     gn_place p;
-    gn_wide tangent = gn_widen(light->tan_half, -24);
-    gn_wide depth = gn_widen(which & 4 ? light->far_depth : light->near_depth, -30);
     for (int i = 0; i < 3; i++) {
         const gn_row *row = &view->row[i];
-        const int64_t m[3] = {row->m[0], row->m[1], row->m[2]};
-        gn_wide right = gn_wide_multiply(gn_wide_dot(m, light->right), tangent);
-        gn_wide up = gn_wide_multiply(gn_wide_dot(m, light->up), tangent);
-        gn_wide sum = gn_wide_add(gn_wide_dot(m, light->forward), which & 1 ? right : gn_wide_negate(right));
-        sum = gn_wide_multiply(gn_wide_add(sum, which & 2 ? up : gn_wide_negate(up)), depth);
-        sum = gn_wide_add(sum, gn_widen(row->offset, 0));
-        sum = gn_wide_add(sum, gn_wide_dot(m, light->position));
-        p.c[i] = gn_wide_round(sum, row->shift);
+        p.c[i] = gn_wide_round(gn_wide_add(along_corner(row->m, light, which), gn_widen(row->offset, 0)), row->shift);
     }
     return p;
 }
 
-/* How far its corners are along the camera's forward, in 2^-30 units. */
+/* How far it is along the camera's forward, in 2^-30 units. */
 static gn_wide corner_depth(const gn_eye *eye, const gn_light *light, int which)
 {
-    int64_t ahead = 0, right = 0, up = 0, at = 0;
-    for (int i = 0; i < 3; i++) {
-        ahead += gn_multiply(light->forward[i], eye->forward[i]);
-        right += gn_multiply(light->right[i], eye->forward[i]);
-        up += gn_multiply(light->up[i], eye->forward[i]);
-        at += gn_multiply(light->position[i] - eye->position[i], eye->forward[i]);
-    }
-    gn_wide across =
-        gn_wide_multiply(gn_wide_add(gn_widen(which & 1 ? right : -right, 0), gn_widen(which & 2 ? up : -up, 0)),
-                         gn_widen(light->tan_half, -24));
-    gn_wide depth = gn_widen(which & 4 ? light->far_depth : light->near_depth, -30);
-    return gn_wide_add(gn_wide_multiply(gn_wide_add(gn_widen(ahead, 0), across), depth), gn_widen(at, 0));
+    int64_t at_eye = 0;
+    for (int i = 0; i < 3; i++)
+        at_eye += gn_multiply(eye->forward[i], eye->position[i]);
+    return gn_wide_add(along_corner(eye->forward, light, which), gn_widen(-at_eye, 0));
 }
 
 /* Its planes, normals outward: near, far, right, left, above, below; and the distance of each from the light, times
@@ -166,6 +134,7 @@ void gn_count_frustum(gn_volume_region *r)
     static const uint8_t corners[6][4] = {{0, 1, 3, 2}, {6, 7, 5, 4}, {1, 5, 7, 3},
                                           {4, 0, 2, 6}, {2, 3, 7, 6}, {1, 0, 4, 5}};
     const gn_light *light = &r->context->light;
+    const gn_view *view = &r->volumes->view;
     const gn_eye *eye = &r->volumes->eye;
     int32_t apart[3];
     r->target.own[0] = r->target.own[1] = GN_NO_TRIANGLE;
@@ -178,11 +147,11 @@ void gn_count_frustum(gn_volume_region *r)
         int64_t n[3], offset = frustum_plane(n, light, which);
         f.count = 0;
         for (int i = 0; i < 4; i++) {
-            gn_place p = frustum_corner(&r->volumes->view, light, corners[which][i]);
+            gn_place p = frustum_corner(view, light, corners[which][i]);
             gn_add_corner(&f, &p, 0);
             gn_reach_depth(&reach, eye, corner_depth(eye, light, corners[which][i]));
         }
-        gn_project_face(&r->volumes->view, &f, &o);
+        gn_project_face(view, &f, &o);
         gn_set_plane(&r->target, eye, n, gn_wide_add(gn_wide_dot(n, apart), gn_widen(offset, 0)), &reach);
         gn_count_outline(&r->target, &o, -GN_FRUSTUM_WINDING, r->window, GN_COMPARED);
     }
@@ -202,9 +171,9 @@ static int turn(const gn_place *p, const gn_place *q)
 uint32_t gn_lid_along_view(const gn_context *context, const gn_corner *a, const gn_corner *b, int32_t winding)
 {
     const int32_t *forward = context->camera.forward, *axis = context->light.forward;
-    gn_place centre = gn_place_direction(&context->volumes->view, axis);
-    int first = turn(&b->direction, &a->direction), second = turn(&a->direction, &centre),
-        third = turn(&centre, &b->direction);
+    const gn_place *centre = &context->volumes->axis;
+    int first = turn(&b->direction, &a->direction), second = turn(&a->direction, centre),
+        third = turn(centre, &b->direction);
     if (first != second || second != third)
         return 0;
     int64_t along = 0; /* the cone, not its mirror image: all its directions go with the axis */

@@ -106,6 +106,7 @@ PRIMITIVES(this_machine)
 #define GN_SLOW_MULTIPLY 1
 #define GN_ARITHMETIC_SHIFT 0
 #define gn_clamp second_clamp
+#define gn_bits_for second_bits_for
 #define gn_floor_shift second_floor_shift
 #define gn_floor_shift_64 second_floor_shift_64
 #define gn_leading_zeros second_leading_zeros
