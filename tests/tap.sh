@@ -1,4 +1,5 @@
 # For shell tests: prints results as TAP. Source it, call check for each promise, end with finish.
+# shellcheck shell=sh disable=SC2154
 
 tap_count=0
 tap_failed=0
@@ -16,6 +17,33 @@ check() {
         echo "#   again: $0"
         tap_failed=1
     fi
+}
+
+# exits STATUS COMMAND...: the command ends with this exit status.
+exits() {
+    wanted=$1
+    shift
+    "$@"
+    got=$?
+    [ $got = "$wanted" ] || { echo "exit status $got, expected $wanted: $*"; return 1; }
+}
+
+# Of the simulator, with what the test has set: $gnomon, $folder for temporary files, nothing_left.
+
+# status N ARGUMENT...: the simulator ends with this exit status.
+status() {
+    wanted=$1
+    shift
+    exits "$wanted" "$gnomon" "$@"
+}
+
+# refuses TEXT ARGUMENT...: exit status 2, a message with this text and "expected", nothing printed, nothing_left.
+refuses() {
+    text=$1
+    shift
+    status 2 "$@" >"$folder/out" 2>"$folder/err" || { cat "$folder/err"; return 1; }
+    cat "$folder/err"
+    grep -qF -- "$text" "$folder/err" && grep -q expected "$folder/err" && [ ! -s "$folder/out" ] && nothing_left
 }
 
 finish() {

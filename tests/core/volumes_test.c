@@ -97,18 +97,22 @@ typedef struct answer {
     uint64_t scenes, red, wrong;
 } answer;
 
-/* All red pixels are lit. */
+/* A red pixel is lit. */
+static void take_in_pixel(answer *a, const stage *s, uint64_t n, size_t pixel)
+{
+    a->red++;
+    if (s->f.mask[pixel] != 254 && a->wrong++ < 5)
+        note("scene %llu, pixel (%u, %u): shadowed", (unsigned long long)n, (unsigned)(pixel % SIDE),
+             (unsigned)(pixel / SIDE));
+}
+
+/* All red pixels are. */
 static void take_in(answer *a, const stage *s, uint64_t n)
 {
     a->scenes++;
-    for (size_t i = 0; i < SIDE * SIDE; i++) {
-        if (!is_red(s, i))
-            continue;
-        a->red++;
-        if (s->f.mask[i] != 254 && a->wrong++ < 5)
-            note("scene %llu, pixel (%u, %u): shadowed", (unsigned long long)n, (unsigned)(i % SIDE),
-                 (unsigned)(i / SIDE));
-    }
+    for (size_t i = 0; i < SIDE * SIDE; i++)
+        if (is_red(s, i))
+            take_in_pixel(a, s, n, i);
 }
 
 static void report(const char *what, const answer *a, uint64_t allowed, uint64_t cases)
@@ -118,12 +122,16 @@ static void report(const char *what, const answer *a, uint64_t allowed, uint64_t
     ok(a->scenes > cases * 9 / 10 && a->red > cases, "in %llu scenes", (unsigned long long)a->scenes);
 }
 
-/* From the eye into the scene, turned by any angle about the view. */
-static gn_status look(stage *s, const int32_t eye[3], const int32_t target[3])
+/* Render from the eye into the scene, turned by any angle about the view. light: what making the light returned. */
+static gn_status see(stage *s, gn_status light, const int32_t eye[3], const int32_t target[3])
 {
+    if (light != GN_OK)
+        return light;
     int32_t up[3] = {between(-1000, 1000), between(1, 1000), 0};
     gn_status status = gn_look_at(&s->camera, eye, target, up);
-    return status == GN_OK ? gn_perspective(&s->camera, GN_DEGREES(40), 1000, 1 << 24) : status;
+    if (status == GN_OK)
+        status = gn_perspective(&s->camera, GN_DEGREES(40), 1000, 1 << 24);
+    return status == GN_OK ? render(s) : status;
 }
 
 /* ---- edge-on --------------------------------------------------------------------------------------------------- */
@@ -150,12 +158,7 @@ static void what_is_before_a_side_seen_edge_on_is_lit(uint64_t cases)
         add_vertex(&s.shapes[1], 0, height, -3000000);
         add_vertex(&s.shapes[1], between(0, 1) ? 1500000 : -1500000, height, -2000000);
         add_triangle(&s.shapes[1], 0, 1, 2);
-        gn_status status = gn_directional_light(&s.light, direction, 0);
-        if (status == GN_OK)
-            status = look(&s, eye, target);
-        if (status == GN_OK)
-            status = render(&s);
-        if (status == GN_OK)
+        if (see(&s, gn_directional_light(&s.light, direction, 0), eye, target) == GN_OK)
             take_in(&a, &s, n);
         end(&s);
     }
@@ -182,12 +185,7 @@ static void what_is_seen_edge_on_before_a_shadow_is_lit(uint64_t cases)
         add_vertex(&s.shapes[0], 0, between(-900000, 900000), -3000000);
         add_triangle(&s.shapes[0], 0, 1, 2);
         add_quad(&s.shapes[1], roof[0], roof[1], roof[2], roof[3]);
-        gn_status status = gn_directional_light(&s.light, direction, 0);
-        if (status == GN_OK)
-            status = look(&s, eye, target);
-        if (status == GN_OK)
-            status = render(&s);
-        if (status == GN_OK)
+        if (see(&s, gn_directional_light(&s.light, direction, 0), eye, target) == GN_OK)
             take_in(&a, &s, n);
         end(&s);
     }
@@ -251,19 +249,11 @@ static void a_floor_that_the_near_plane_cuts_is_lit_beyond_it(uint64_t cases)
         add_floor(&s.shapes[0]);
         add_level(&s.shapes[1], 3000000, 3000000, 3000001, 3000001, 0, 1);
         gn_status status = gn_spot_light(&s.light, position, aim, 0, GN_DEGREES(100), between(200000, 500000), 1 << 22);
-        if (status == GN_OK)
-            status = look(&s, eye, target);
-        if (status == GN_OK)
-            status = render(&s);
+        status = see(&s, status, eye, target);
         a.scenes += status == GN_OK;
-        for (size_t i = 0; status == GN_OK && i < SIDE * SIDE; i++) {
-            if (!is_red(&s, i) || !sees_the_frustum(&s, i))
-                continue;
-            a.red++;
-            if (s.f.mask[i] != 254 && a.wrong++ < 5)
-                note("scene %llu, pixel (%u, %u): shadowed", (unsigned long long)n, (unsigned)(i % SIDE),
-                     (unsigned)(i / SIDE));
-        }
+        for (size_t i = 0; status == GN_OK && i < SIDE * SIDE; i++)
+            if (is_red(&s, i) && sees_the_frustum(&s, i))
+                take_in_pixel(&a, &s, n, i);
         end(&s);
     }
     report("a floor that the near plane cuts is lit beyond it", &a, a.red / 1000000, cases);

@@ -78,6 +78,12 @@ void build_level(builder *b, double x0, double x1, double y, double z0, double z
     build_quad(b, corners);
 }
 
+void build_floor(builder *b, double half_width, double half_depth)
+{
+    build_solid(b, 200, 200, 190);
+    build_box(b, -half_width, half_width, -0.5, 0, -half_depth, half_depth);
+}
+
 void build_prism(builder *b, const double (*outline)[2], int corners, double z0, double z1)
 {
     uint32_t first = (uint32_t)build_vertex_count(b), n = (uint32_t)corners;
@@ -247,6 +253,18 @@ void build_low_sun(builder *b, double degrees)
 {
     build_sun(b, cos(degrees * pi / 180), -sin(degrees * pi / 180), 0);
     build_sun_box(b, 0, 0, 4, 4, -4, 8);
+}
+
+void build_noon(builder *b)
+{
+    build_sun(b, 0, -1, 0);
+    build_sun_box(b, 0, 0, 4, 4, -4, 8);
+}
+
+void build_view_from_above(builder *b, double sun_degrees)
+{
+    build_camera_above(b, 0, 0, 1.25);
+    build_low_sun(b, sun_degrees);
 }
 
 void build_spot(builder *b, const double position[3], const double target[3], double degrees, double near_depth,

@@ -58,6 +58,9 @@ void build_sphere(builder *b, double x, double y, double z, double radius, int b
 /* A level rectangle of two triangles, counter-clockwise from above. */
 void build_level(builder *b, double x0, double x1, double y, double z0, double z1);
 
+/* A light grey slab 0.5 m thick about the origin, its top y = 0: a new mesh, solid. */
+void build_floor(builder *b, double half_width, double half_depth);
+
 /* Turn the latest mesh's vertices from number `first` on about an axis (0 x, 1 y, 2 z) through a point, right-handed.
  */
 void build_turn(builder *b, size_t first, int axis, double degrees, double x, double y, double z);
@@ -80,6 +83,12 @@ void build_sun_box(builder *b, double u, double v, double width, double height, 
  * box is 4 m x 4 m about the origin and 8 m deep: with a map of 64 a texel is 1/16 m, its centres at odd multiples of
  * 1/32 m. */
 void build_low_sun(builder *b, double degrees);
+
+/* A sun straight overhead, with a box of that size. */
+void build_noon(builder *b);
+
+/* A camera above the origin that sees 10/3 m x 5/2 m, 48 pixels a metre, and a low sun. */
+void build_view_from_above(builder *b, double sun_degrees);
 
 void build_spot(builder *b, const double position[3], const double target[3], double degrees, double near_depth,
                 double far_depth);

@@ -14,8 +14,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#define COUNT(array) (sizeof(array) / sizeof *(array))
-
 static const double scales[] = {1, 1.0 / 1024, 1024, 0.001, 1000};
 
 enum { POWERS_OF_TWO = 3 /* the first three of scales */ };

@@ -6,31 +6,7 @@
 
 #include <math.h>
 
-#define COUNT(array) (sizeof(array) / sizeof *(array))
-
 static const double root_3 = 1.7320508075688772;
-
-static int in(double value, double low, double high)
-{
-    return value > low && value < high;
-}
-
-static int lit_unless(int shadowed)
-{
-    return shadowed ? BY_HAND_SHADOWED : BY_HAND_LIT;
-}
-
-static void add_floor(builder *b)
-{
-    build_solid(b, 200, 200, 190);
-    build_box(b, -1.9, 1.9, -0.5, 0, -1.4, 1.4);
-}
-
-static void look_from_above(builder *b, double sun)
-{
-    build_camera_above(b, 0, 0, 1.25);
-    build_low_sun(b, sun);
-}
 
 /* ---- slivers, needles, T-junctions ----------------------------------------------------------------------------- */
 
@@ -66,7 +42,7 @@ static void build_fan(builder *b)
     build_triangle(b, low[3], first, last);
     build_solid(b, 170, 120, 70);
     build_box(b, -0.9, -0.4, 0, 0.5, -0.5, 0.5);
-    look_from_above(b, 45);
+    build_view_from_above(b, 45);
 }
 
 static int fan_by_hand(const double p[3])
@@ -78,10 +54,10 @@ static int fan_by_hand(const double p[3])
  * silhouette under the terminator, so that second depth may err there by a texel. */
 static void build_fine_sphere(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_sphere(b, -0.5, 0.7, 0, 0.5, 24, 40);
-    look_from_above(b, 45);
+    build_view_from_above(b, 45);
     b->width = 80;
     b->height = 60;
 }
@@ -91,12 +67,12 @@ static const double needle[3][2] = {{-1.6, -1.2}, {1.1, 1.15}, {1.15, 1.1}}; /* 
 
 static void build_needle(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_sheet(b, 170, 120, 70);
     for (int i = 0; i < 3; i++)
         build_vertex(b, needle[i][0], 0.5, needle[i][1]);
     build_triangle(b, 0, 1, 2);
-    look_from_above(b, 45);
+    build_view_from_above(b, 45);
 }
 
 static int needle_by_hand(const double p[3])
@@ -118,7 +94,7 @@ static int needle_by_hand(const double p[3])
 static void build_t_junctions(builder *b)
 {
     enum { PIECES = 16 };
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_sheet(b, 170, 120, 70);
     uint32_t a = build_vertex(b, -0.8, 0.7, -0.7), c = build_vertex(b, -0.1, 0.7, -0.7);
     uint32_t d = build_vertex(b, -0.1, 0.7, 0.7), e = build_vertex(b, -0.8, 0.7, 0.7), f = build_vertex(b, 0.6, 0.7, 0);
@@ -131,7 +107,7 @@ static void build_t_junctions(builder *b)
         last = next;
     }
     build_turn(b, 0, 1, 31, -0.4, 0, 0);
-    look_from_above(b, 45);
+    build_view_from_above(b, 45);
 }
 
 /* ---- faces in one plane ---------------------------------------------------------------------------------------- */
@@ -151,7 +127,7 @@ static void build_coplanar(builder *b, int open)
     }
     build_solid(b, 170, 120, 70);
     build_box(b, -1.4, -1.1, 0, 0.3, -0.4, 0.4);
-    look_from_above(b, 30);
+    build_view_from_above(b, 30);
 }
 
 static void build_coplanar_sheets(builder *b)
@@ -173,11 +149,11 @@ static int coplanar_by_hand(const double p[3])
 
 static void build_block(builder *b, double turn)
 {
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, -0.8, -0.2, 0, 0.4, -0.3, 0.3);
     build_turn(b, 0, 1, turn, -0.5, 0, 0);
-    look_from_above(b, 45);
+    build_view_from_above(b, 45);
     b->map_width = b->map_height = 32;
 }
 
@@ -208,8 +184,7 @@ static void build_bar(builder *b)
 {
     const double bar[4][2] = {{0.13, 0}, {0.53, 0.4}, {0.13, 0.8}, {-0.27, 0.4}};
     const double eye[3] = {-4, 1.8652306, 0}, target[3] = {0, 0.2, 0};
-    build_solid(b, 200, 200, 190);
-    build_box(b, -1.95, 1.95, -0.5, 0, -1.95, 1.95);
+    build_floor(b, 1.95, 1.95);
     build_solid(b, 170, 120, 70);
     build_prism(b, bar, 4, -0.8, 0.8);
     build_camera_orthographic(b, eye, target, 1.25);
@@ -241,10 +216,10 @@ static int bar_by_hand(const double p[3])
 static void build_crossing(builder *b)
 {
     const double wedge[4][2] = {{-0.8, -0.3}, {0.8, -0.3}, {0.8, 0.07}, {-0.8, -0.07}};
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_prism(b, wedge, 4, -0.8, 0.8);
-    look_from_above(b, 45);
+    build_view_from_above(b, 45);
 }
 
 static int crossing_by_hand(const double p[3])
@@ -254,12 +229,12 @@ static int crossing_by_hand(const double p[3])
 
 static void build_nested(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, -0.9, -0.1, 0, 0.8, -0.4, 0.4);
     build_solid(b, 120, 150, 120);
     build_box(b, -0.8, -0.2, 0.1, 0.7, -0.3, 0.3);
-    look_from_above(b, 45);
+    build_view_from_above(b, 45);
 }
 
 static int nested_by_hand(const double p[3])
@@ -269,11 +244,11 @@ static int nested_by_hand(const double p[3])
 
 static void build_inside_out(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, -1.2, -0.4, 0, 0.5, -0.5, 0.5);
     build_invert(b);
-    look_from_above(b, 30);
+    build_view_from_above(b, 30);
 }
 
 static int inside_out_by_hand(const double p[3])
@@ -285,10 +260,10 @@ static int inside_out_by_hand(const double p[3])
 
 static void build_canopy(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_sheet(b, 170, 120, 70);
     build_level(b, -0.9, -0.1, 0.6, -0.5, 0.5);
-    look_from_above(b, 45);
+    build_view_from_above(b, 45);
 }
 
 static int canopy_by_hand(const double p[3])
@@ -298,10 +273,10 @@ static int canopy_by_hand(const double p[3])
 
 static void build_poster(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_sheet(b, 170, 120, 70);
     build_level(b, -0.9, -0.1, 1.0 / 64, -0.5, 0.5);
-    look_from_above(b, 30);
+    build_view_from_above(b, 30);
 }
 
 static int poster_by_hand(const double p[3])

@@ -8,19 +8,7 @@
 
 #include <math.h>
 
-#define COUNT(array) (sizeof(array) / sizeof *(array))
-
 static const double pi = 3.14159265358979323846;
-
-static int in(double value, double low, double high)
-{
-    return value > low && value < high;
-}
-
-static int lit_unless(int shadowed)
-{
-    return shadowed ? BY_HAND_SHADOWED : BY_HAND_LIT;
-}
 
 /* ---- grazing light --------------------------------------------------------------------------------------------- */
 
@@ -30,13 +18,11 @@ static void build_grazing(builder *b, double degrees, int open)
         build_sheet(b, 200, 200, 190);
         build_level(b, -1.95, 1.95, 0, -1.4, 1.4);
     } else {
-        build_solid(b, 200, 200, 190);
-        build_box(b, -1.95, 1.95, -0.5, 0, -1.4, 1.4);
+        build_floor(b, 1.95, 1.4);
     }
     build_solid(b, 170, 120, 70);
     build_box(b, -1.4, -1.1, 0, 0.4, -0.5, 0.5);
-    build_camera_above(b, 0, 0, 1.25);
-    build_low_sun(b, degrees);
+    build_view_from_above(b, degrees);
 }
 
 /* midpoint_of_the_top: the block's top ends D behind a texel's centre. Light that meets the centre leaves through the
@@ -82,18 +68,11 @@ SHEET(at_hundredth, 0.01)
 
 /* ---- edge-on triangles ----------------------------------------------------------------------------------------- */
 
-static void add_floor(builder *b)
-{
-    build_solid(b, 200, 200, 190);
-    build_box(b, -1.95, 1.95, -0.5, 0, -1.95, 1.95);
-}
-
 static void build_noon_from(builder *b, double x)
 {
     const double eye[3] = {x, 3, 3}, target[3] = {0, 0, 0};
     build_camera_orthographic(b, eye, target, 1.25);
-    build_sun(b, 0, -1, 0);
-    build_sun_box(b, 0, 0, 4, 4, -4, 8);
+    build_noon(b);
 }
 
 static void add_wall(builder *b, double lean)
@@ -107,7 +86,7 @@ static void add_wall(builder *b, double lean)
 
 static void build_edge_on(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.95, 1.95);
     add_wall(b, 0);
     build_noon_from(b, 3);
 }
@@ -115,7 +94,7 @@ static void build_edge_on(builder *b)
 /* 0.2 mm in 0.8 m: the wall's left side looks up to the sun by 0.014 degree. */
 static void build_almost_edge_on(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.95, 1.95);
     add_wall(b, 0.8 / 4096);
     build_noon_from(b, -3);
 }
@@ -134,11 +113,10 @@ static int edge_on_by_hand(const double p[3])
 static void build_edge_on_camera(builder *b)
 {
     const double corners[4][3] = {{0.2, 0, 0.6}, {0.2, 0, -0.6}, {0.2, 0.6, -0.6}, {0.2, 0.6, 0.6}};
-    add_floor(b);
+    build_floor(b, 1.95, 1.95);
     build_sheet(b, 120, 150, 120);
     build_quad(b, corners);
-    build_camera_above(b, 0, 0, 1.25);
-    build_low_sun(b, 45);
+    build_view_from_above(b, 45);
 }
 
 static int edge_on_camera_by_hand(const double p[3])

@@ -8,27 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#define COUNT(array) (sizeof(array) / sizeof *(array))
-
-static int in(double value, double low, double high)
-{
-    return value > low && value < high;
-}
-
-static int lit_unless(int shadowed)
-{
-    return shadowed ? BY_HAND_SHADOWED : BY_HAND_LIT;
-}
-
-static void add_floor(builder *b)
-{
-    build_solid(b, 200, 200, 190);
-    build_box(b, -1.9, 1.9, -0.5, 0, -1.4, 1.4);
-}
-
 static void add_block(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, -0.75, -0.25, 0, 0.5, -0.5, 0.5);
 }
@@ -49,7 +31,7 @@ static const double spot_x = -8, spot_y = 13.856406460551018;
 static void build_far_spot(builder *b, double ratio)
 {
     const double position[3] = {spot_x, spot_y, 0}, target[3] = {0, 0, 0};
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, -0.7, -0.1, 1, 1.2, -0.5, 0.5);
     build_camera_above(b, 0, 0, 1.25);
@@ -122,7 +104,7 @@ static int far_spot_by_hand(const double p[3])
 static void build_wide_spot(builder *b)
 {
     const double position[3] = {0, 0.03, 0}, target[3] = {0, 0, 0};
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, 0.3, 0.35, 0, 0.015, -0.05, 0.05);
     build_camera_above(b, 0, 0, 1.25);
@@ -143,8 +125,7 @@ static void finish_block(builder *b, double unit)
 {
     b->unit = unit;
     add_block(b);
-    build_camera_above(b, 0, 0, 1.25);
-    build_low_sun(b, 45);
+    build_view_from_above(b, 45);
 }
 
 /* The slab's corners are at +-2^24 exactly. */
@@ -162,12 +143,10 @@ static void build_thousandth(builder *b)
 static void build_least_box(builder *b)
 {
     b->unit = 16;
-    build_solid(b, 200, 200, 190);
-    build_box(b, -1.875, 1.875, -0.5, 0, -1.375, 1.375);
+    build_floor(b, 1.875, 1.375);
     build_solid(b, 170, 120, 70);
     build_box(b, -0.75, -0.25, 0, 0.5, -0.5, 0.5);
-    build_camera_above(b, 0, 0, 1.25);
-    build_low_sun(b, 45);
+    build_view_from_above(b, 45);
 }
 
 /* A light's box of 2^28 world integers around a scene of 2^25: with map 1024 a texel is 0.03 m. */
@@ -250,7 +229,7 @@ static void build_camera_10000(builder *b)
 static void build_through_near(builder *b)
 {
     const double eye[3] = {-1.2, 0.5, 0.1}, target[3] = {1, 0.1, 0};
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, 0.25, 0.5, 0, 0.3, -0.4, 0.4);
     build_solid(b, 120, 150, 120);
@@ -283,7 +262,7 @@ static int through_near_by_hand(const double p[3])
 static void build_cut_by_light(builder *b)
 {
     const double position[3] = {0, 1, 0}, target[3] = {0, 0, 0};
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, 0.2, 0.3, 0.6, 0.8, -0.1, 0.1);
     build_box(b, -0.3, -0.2, 0.8, 0.85, -0.1, 0.1);
@@ -321,7 +300,7 @@ static int all_dark_by_hand(const double p[3])
 static void build_light_inside(builder *b)
 {
     const double position[3] = {0, 1.6, 0}, target[3] = {0, 0, 0};
-    add_floor(b);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 220, 200, 120);
     build_box(b, -0.2, 0.2, 1.4, 1.8, -0.2, 0.2);
     build_camera_above(b, 0, 0, 1.25);

@@ -10,29 +10,11 @@
 
 #include <math.h>
 
-#define COUNT(array) (sizeof(array) / sizeof *(array))
-
 static const double root_3 = 1.7320508075688772;
 
 static gn_bias texels(double count)
 {
     return (gn_bias){GN_BIAS_TEXELS, (uint32_t)lround(65536 * count)};
-}
-
-static int in(double value, double low, double high)
-{
-    return value > low && value < high;
-}
-
-static int lit_unless(int shadowed)
-{
-    return shadowed ? BY_HAND_SHADOWED : BY_HAND_LIT;
-}
-
-static void add_floor(builder *b)
-{
-    build_solid(b, 200, 200, 190);
-    build_box(b, -1.8, 1.8, -0.5, 0, -1.4, 1.4);
 }
 
 /* ---- W&M, figure 4: a table, its legs on the floor -----------------------------------------------------------------
@@ -41,7 +23,7 @@ static void add_floor(builder *b)
 /* Map 128: t = 1/32, legs 2 t thick. */
 static void build_table(builder *b, double bias)
 {
-    add_floor(b);
+    build_floor(b, 1.8, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, -1, -0.2, 0.7, 0.8, -0.6, 0.6);
     for (int i = 0; i < 4; i++) {
@@ -49,8 +31,7 @@ static void build_table(builder *b, double bias)
         z = i & 2 ? z : -z - 0.0625;
         build_box(b, x, x + 0.0625, 0, 0.7, z, z + 0.0625);
     }
-    build_camera_above(b, 0, 0, 1.25);
-    build_low_sun(b, 30);
+    build_view_from_above(b, 30);
     b->map_width = b->map_height = 128;
     b->bias = texels(bias);
 }
@@ -131,11 +112,10 @@ static const double thin = 0.1 / 16; /* t / 10 */
 
 static void build_thin_slab(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.8, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, -1.2, -0.2, 0.5, 0.5 + thin, -0.7, 0.7);
-    build_camera_above(b, 0, 0, 1.25);
-    build_low_sun(b, 30);
+    build_view_from_above(b, 30);
 }
 
 static int thin_slab_by_hand(const double p[3])
@@ -146,12 +126,6 @@ static int thin_slab_by_hand(const double p[3])
 }
 
 /* ---- W&E, figure 2 ----------------------------------------------------------------------------------------------- */
-
-static void build_noon(builder *b)
-{
-    build_sun(b, 0, -1, 0);
-    build_sun_box(b, 0, 0, 4, 4, -4, 8);
-}
 
 /* (a) A slope of 8:1 falls to the left, under a plate whose edge, x = 0.03, lies just left of the centre of a texel
  * (0 to 1/16, centre 1/32). The sun stands overhead. */
@@ -200,8 +174,7 @@ static void build_silhouette(builder *b)
 {
     const double wedge[3][2] = {{0.625, 0.4}, {-0.575, 1.6}, {-0.575, 1.3}};
     const double eye[3] = {3, 3, 0}, target[3] = {0, 0, 0};
-    build_solid(b, 200, 200, 190);
-    build_box(b, -1.95, 1.95, -0.5, 0, -1.95, 1.95);
+    build_floor(b, 1.95, 1.95);
     build_solid(b, 170, 120, 70);
     build_prism(b, wedge, 3, -0.8, 0.8);
     build_camera_orthographic(b, eye, target, 1.25);
@@ -221,11 +194,10 @@ static int silhouette_by_hand(const double p[3])
  * round may be the texel's: (0.144 - 0.036)(1.6 - 0.063) = 0.166 m^2, 2.0 %. */
 static void build_near_receiver(builder *b)
 {
-    add_floor(b);
+    build_floor(b, 1.8, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, -0.8, 0.4, 2.0 / 16, 4.0 / 16, -0.8, 0.8);
-    build_camera_above(b, 0, 0, 1.25);
-    build_low_sun(b, 60);
+    build_view_from_above(b, 60);
     b->bias = texels(8);
 }
 
@@ -249,8 +221,7 @@ static void build_background(builder *b)
     const double block[4][2] = {{-0.3, 0.9}, {0.4, 0.9}, {0.4, 1.1}, {-0.37, 1.1}};
     const double plate[4][2] = {{-0.65, 1.6}, {0.1, 1.6}, {0.1, 1.7}, {-0.7, 1.7}};
     const double eye[3] = {-4, 4, 0}, target[3] = {0, 0, 0};
-    build_solid(b, 200, 200, 190);
-    build_box(b, -1.95, 1.95, -0.5, 0, -1.95, 1.95);
+    build_floor(b, 1.95, 1.95);
     build_solid(b, 120, 150, 120);
     build_prism(b, block, 4, -0.5, 0.5);
     build_solid(b, 170, 120, 70);

@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNT(array) (sizeof(array) / sizeof *(array))
-
 static const double pi = 3.14159265358979323846;
 
 /* What the scene's builder takes besides the builder. */
@@ -24,8 +22,7 @@ static struct {
 
 static void add_scene(builder *b)
 {
-    build_solid(b, 200, 200, 190);
-    build_box(b, -1.9, 1.9, -0.5, 0, -1.4, 1.4);
+    build_floor(b, 1.9, 1.4);
     build_solid(b, 170, 120, 70);
     build_box(b, -0.8, -0.2, 0, 0.4, -0.3, 0.3);
     build_turn(b, 0, 1, 17, -0.5, 0, 0);

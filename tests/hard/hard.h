@@ -17,6 +17,8 @@
 #include "frame.h"
 #include "truth.h"
 
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
 enum method {
     METHOD_CONSTANT,
     METHOD_MIDPOINT,
@@ -76,6 +78,17 @@ typedef struct hard_row {
 } hard_row;
 
 enum { BY_HAND_SHADOWED = 0, BY_HAND_LIT = 254, BY_HAND_UNSAID = 1 };
+
+/* Arithmetic done by hand: is a value strictly within a range, what a point is. */
+static inline int in(double value, double low, double high)
+{
+    return value > low && value < high;
+}
+
+static inline int lit_unless(int shadowed)
+{
+    return shadowed ? BY_HAND_SHADOWED : BY_HAND_LIT;
+}
 
 /* Flags of a case. */
 enum {

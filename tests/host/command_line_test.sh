@@ -9,24 +9,6 @@ gnomon=${GNOMON:-build/gnomon}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# status N COMMAND...: the simulator ends with this exit status.
-status() {
-    wanted=$1
-    shift
-    "$gnomon" "$@"
-    got=$?
-    [ $got = "$wanted" ] || { echo "exit status $got, expected $wanted: gnomon $*"; return 1; }
-}
-
-# refuses TEXT ARGUMENT...: exit status 2, a message with this text and "expected", no output file, nothing half written.
-refuses() {
-    text=$1
-    shift
-    status 2 "$@" >"$folder/out" 2>"$folder/err" || { cat "$folder/err"; return 1; }
-    cat "$folder/err"
-    grep -qF -- "$text" "$folder/err" && grep -q expected "$folder/err" && [ ! -s "$folder/out" ] && nothing_left
-}
-
 nothing_left() {
     left=$(find "$folder" -name 'new*' -o -name '.[0-9]*')
     [ -z "$left" ] || { echo "left behind: $left"; return 1; }

@@ -48,15 +48,21 @@ static void limits(void)
     ok(compare(coverage) == EXIT_DIFFERS, "a_coverage_above_the_limit_gives_status_1");
 }
 
+static size_t read_difference(char *text, size_t room)
+{
+    FILE *file = fopen(sandbox_path("in-difference.ppm"), "rb");
+    size_t size = file ? fread(text, 1, room, file) : 0;
+    if (file)
+        fclose(file);
+    return size;
+}
+
 static void the_difference_picture(void)
 {
     char text[200];
     const char *options[] = {"--difference", sandbox_path("in-difference.ppm"), 0};
     compare(options);
-    FILE *file = fopen(sandbox_path("in-difference.ppm"), "rb");
-    size_t size = file ? fread(text, 1, sizeof text, file) : 0;
-    if (file)
-        fclose(file);
+    size_t size = read_difference(text, sizeof text);
     const uint8_t *p = (const uint8_t *)text + 11;
     ok(size == 11 + 48 && memcmp(text, "P6\n8 2\n255\n", 11) == 0, "the_difference_is_a_ppm_of_the_same_size");
     ok(p[3 * 4 + 2] > p[3 * 4] && p[3 * 5 + 2] > p[3 * 5], "false_light_is_blue");
@@ -225,10 +231,7 @@ static void ties_are_yellow(void)
     const char *options[] = {"--difference", sandbox_path("in-difference.ppm"), "--near", sandbox_path("in-near.pgm"),
                              0};
     compare(options);
-    FILE *file = fopen(sandbox_path("in-difference.ppm"), "rb");
-    size_t size = file ? fread(text, 1, sizeof text, file) : 0;
-    if (file)
-        fclose(file);
+    size_t size = read_difference(text, sizeof text);
     const uint8_t *p = (const uint8_t *)text + 11;
     ok(size == 11 + 24 && p[3] > p[5] && p[4] > p[5] && memcmp(p + 3, p + 15, 3) == 0 && p[12] > 2 * p[13],
        "what_differs_near_a_tie_is_yellow_in_the_picture");

@@ -57,15 +57,6 @@ same() {
     return 1
 }
 
-# fails STATUS COMMAND...: the command ends with this exit status
-fails() {
-    wanted=$1
-    shift
-    status=0
-    "$@" || status=$?
-    same "exit status $wanted" "exit status $status"
-}
-
 # ---- the twelve ----------------------------------------------------------------------------------------------------
 
 has_checksum() {
@@ -113,8 +104,8 @@ closed_meshes() {
 open_and_inverted_meshes_are_noticed() {
     sed '$d' "$folder/all/lshape_plane.obj" >"$folder/open.obj"
     awk '$1 == "f" { print $1, $2, $4, $3; next } { print }' "$folder/all/lshape_plane.obj" >"$folder/inverted.obj"
-    fails 1 is_closed_and_faces_outwards "$folder/open.obj" &&
-        fails 1 is_closed_and_faces_outwards "$folder/inverted.obj"
+    exits 1 is_closed_and_faces_outwards "$folder/open.obj" &&
+        exits 1 is_closed_and_faces_outwards "$folder/inverted.obj"
 }
 
 one_alone_is_the_same() {
@@ -139,7 +130,7 @@ check "a scene written alone is the same" one_alone_is_the_same
 # ---- failures ------------------------------------------------------------------------------------------------------
 
 an_unknown_name_writes_nothing() {
-    fails 2 "$GNOMON" procedural teapot -o "$folder/unknown" && same "" "$(ls -A "$folder/unknown" 2>/dev/null)"
+    exits 2 "$GNOMON" procedural teapot -o "$folder/unknown" && same "" "$(ls -A "$folder/unknown" 2>/dev/null)"
 }
 
 # Files end at 50 KB here: pipes_pipes.obj cannot be written.
@@ -150,12 +141,12 @@ limited() (
 )
 
 a_full_disk_leaves_no_half_written_file() {
-    fails 2 limited "$folder/full" && same pipes_floor.obj "$(ls -A "$folder/full")"
+    exits 2 limited "$folder/full" && same pipes_floor.obj "$(ls -A "$folder/full")"
 }
 
 a_full_disk_leaves_older_files_as_they_were() {
     before=$(cd "$folder/all" && cksum pipes*)
-    fails 2 limited "$folder/all" && same "$before" "$(cd "$folder/all" && cksum pipes*)" && nothing_else_is_there
+    exits 2 limited "$folder/all" && same "$before" "$(cd "$folder/all" && cksum pipes*)" && nothing_else_is_there
 }
 
 check "an unknown name is refused and writes nothing" an_unknown_name_writes_nothing
