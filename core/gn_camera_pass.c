@@ -1,5 +1,5 @@
 /* The camera pass: region by region visibility, the shadow test, colours; then the region is flushed. */
-#include "gn_context.h"
+#include "gn_cascade.h"
 
 gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
 {
@@ -35,8 +35,15 @@ gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker
     gn_worker *w = &context->workers[worker];
     uint32_t width = pixels->width;
     gn_rasterise_region(context, w, &window);
+    const gn_receiver *receiver = context->settings.receiver;
+    const gn_reconstruction *how = context->settings.reconstruction;
+    gn_row_shader *cascade = how ? how->shade : receiver ? receiver->shade : 0;
     for (uint32_t row = 0; row < pixels->height; row++) {
-        gn_shade_row(context, w->q + row * width, window.column0, window.row0 + (int32_t)row, (int32_t)width);
+        int32_t y = window.row0 + (int32_t)row;
+        if (cascade)
+            cascade(context, w, row * width, window.column0, y, (int32_t)width);
+        else
+            gn_shade_row(context, w->q + row * width, window.column0, y, (int32_t)width);
         gn_colour_region_row(context, w, colour, mask, row, width);
     }
     return GN_OK;

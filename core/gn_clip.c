@@ -89,7 +89,7 @@ void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place c
     }
 }
 
-void gn_fit_depth_plane(gn_depth_plane *plane, const gn_polygon *polygon)
+static void fit_depth_plane(gn_depth_plane *plane, const gn_polygon *polygon)
 {
     const gn_vertex *v = polygon->v;
     const int64_t least = GN_DEPTH_GUARD, most = ((int64_t)1 << 32) - GN_DEPTH_GUARD;
@@ -112,6 +112,13 @@ void gn_fit_depth_plane(gn_depth_plane *plane, const gn_polygon *polygon)
     } else if (high > most) {
         plane->base -= (uint32_t)(high - most);
     }
+}
+
+void gn_make_clipped_plane(gn_depth_plane *plane, const gn_polygon *polygon)
+{
+    const gn_vertex *v = polygon->v, *r1 = &v[polygon->reference], *r2 = r1 + 1;
+    (void)gn_make_depth_plane(plane, &v[0], polygon->area > 0 ? r1 : r2, polygon->area > 0 ? r2 : r1, polygon->area);
+    fit_depth_plane(plane, polygon);
 }
 
 void gn_fit_q_plane(gn_q_plane *plane, const gn_polygon *polygon, uint32_t least)

@@ -28,11 +28,12 @@ gn_place gn_plane_crossing(const gn_view *view, const gn_place *a, const gn_plac
 
 void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place corner[3]);
 
-/* Keep a plane through v[0] from wrapping over the polygon: its other corners were snapped, so where the plane is steep
- * and ends in the near or far plane they lie beyond the range. Moves the plane back into it. */
-void gn_fit_depth_plane(gn_depth_plane *plane, const gn_polygon *polygon);
+/* The depth plane of all pieces, area != 0; steep ones are flat. The polygon's other corners were snapped, so where the
+ * plane is steep and ends in the near or far plane they lie beyond the range: then it is moved back into it, or flat,
+ * so that it does not wrap over the polygon. At v[0] it is within the range. */
+void gn_make_clipped_plane(gn_depth_plane *plane, const gn_polygon *polygon);
 
-/* The same for Q: where the plane leaves the corners' range by more than a sixteenth of it, the triangle is all but
+/* For Q: where the plane leaves the corners' range by more than a sixteenth of it, the triangle is all but
  * edge-on: its farthest Q; where it falls below the least Q of a surface, it is moved up. */
 void gn_fit_q_plane(gn_q_plane *plane, const gn_polygon *polygon, uint32_t least);
 

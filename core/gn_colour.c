@@ -8,7 +8,7 @@ void gn_clear_colours(gn_worker *worker)
         worker->colours[i].triangle = GN_NO_TRIANGLE;
 }
 
-static GN_NOINLINE const gn_colour_pair *find_pair(const gn_context *context, gn_worker *worker, uint32_t triangle)
+GN_NOINLINE const gn_colour_pair *gn_find_pair(const gn_context *context, gn_worker *worker, uint32_t triangle)
 {
     gn_colour_pair *pair = &worker->colours[triangle & (GN_COLOUR_CACHE - 1)];
     if (pair->triangle != triangle || triangle == GN_NO_TRIANGLE)
@@ -16,44 +16,33 @@ static GN_NOINLINE const gn_colour_pair *find_pair(const gn_context *context, gn
     return pair;
 }
 
-GN_INLINE void write_pixel(uint8_t *out, uint32_t colour, uint8_t format)
-{
-    if (format == GN_RGB565) {
-        *(uint16_t *)(void *)out = (uint16_t)colour;
-    } else {
-        out[0] = (uint8_t)colour;
-        out[1] = (uint8_t)(colour >> 8);
-        out[2] = (uint8_t)(colour >> 16);
-    }
-}
-
 /* Runs of one triangle share its pair. */
 GN_INLINE void colour_directional(const gn_context *context, gn_worker *worker, const uint32_t *lit,
                                   const uint32_t *triangle, int32_t count, uint8_t *out, uint8_t format)
 {
-    uint32_t last = triangle[0], bytes = format == GN_RGB565 ? 2 : 3;
-    const gn_colour_pair *pair = find_pair(context, worker, last);
+    uint32_t last = triangle[0];
+    const gn_colour_pair *pair = gn_find_pair(context, worker, last);
     uint32_t bright = pair->lit, dark = pair->unlit;
-    for (int32_t i = 0; i < count; i++, out += bytes) {
+    for (int32_t i = 0; i < count; i++) {
         if (triangle[i] != last) {
             last = triangle[i];
-            pair = find_pair(context, worker, last);
+            pair = gn_find_pair(context, worker, last);
             bright = pair->lit;
             dark = pair->unlit;
         }
-        write_pixel(out, (int32_t)lit[i] >= 0 ? bright : dark, format);
+        out = gn_write_pixel(out, (int32_t)lit[i] >= 0 ? bright : dark, format);
     }
 }
 
 static void colour_spot(const gn_context *context, gn_worker *worker, const uint32_t *lit, const uint32_t *triangle,
                         int32_t count, uint8_t *out, uint8_t format)
 {
-    uint32_t last = triangle[0], bytes = format == GN_RGB565 ? 2 : 3;
-    const gn_colour_pair *pair = find_pair(context, worker, last);
-    for (int32_t i = 0; i < count; i++, out += bytes) {
+    uint32_t last = triangle[0];
+    const gn_colour_pair *pair = gn_find_pair(context, worker, last);
+    for (int32_t i = 0; i < count; i++) {
         if (triangle[i] != last) {
             last = triangle[i];
-            pair = find_pair(context, worker, last);
+            pair = gn_find_pair(context, worker, last);
         }
         uint32_t colour = pair->unlit;
         if ((int32_t)lit[i] >= 0 && pair->faces_light) {
@@ -62,7 +51,7 @@ static void colour_spot(const gn_context *context, gn_worker *worker, const uint
             colour = gn_pack(context->scene->objects[last >> context->triangle_bits].colour,
                              gn_intensity(context, cosine), format);
         }
-        write_pixel(out, colour, format);
+        out = gn_write_pixel(out, colour, format);
     }
 }
 
@@ -74,31 +63,35 @@ static void mask_row(const gn_context *context, gn_worker *worker, const uint32_
     for (int32_t i = 0; i < count; i++) {
         if (i == 0 || triangle[i] != last) {
             last = triangle[i];
-            bright = find_pair(context, worker, last)->faces_light ? 254 : 0;
+            bright = gn_find_pair(context, worker, last)->faces_light ? 254 : 0;
         }
         mask[i] = last == GN_NO_TRIANGLE ? 255 : (int32_t)lit[i] >= 0 ? bright : 0;
     }
 }
 
-#if GN_STATISTICS
-static uint32_t count_seen(const gn_context *context, gn_worker *worker, const uint32_t *triangle, int32_t count,
-                           uint32_t *tested)
+uint32_t gn_count_seen(const gn_context *context, gn_worker *worker, const uint32_t *triangle, int32_t count,
+                       uint32_t *tested)
 {
-    uint32_t seen = 0, last = GN_NO_TRIANGLE;
+    uint32_t seen = 0;
+#if GN_STATISTICS
+    uint32_t last = GN_NO_TRIANGLE;
     uint8_t faces = 0;
     for (int32_t i = 0; i < count; i++) {
         if (triangle[i] == GN_NO_TRIANGLE)
             continue;
         if (triangle[i] != last) {
             last = triangle[i];
-            faces = find_pair(context, worker, last)->faces_light;
+            faces = gn_find_pair(context, worker, last)->faces_light;
         }
         seen++;
         *tested += faces;
     }
+#else
+    (void)context, (void)worker, (void)triangle, (void)count;
+    *tested = 0;
+#endif
     return seen;
 }
-#endif
 
 uint32_t gn_colour_row(const gn_context *context, gn_worker *worker, const uint32_t *lit, const uint32_t *triangle,
                        int32_t count, void *colour, uint8_t *mask, uint32_t *tested)
@@ -112,10 +105,5 @@ uint32_t gn_colour_row(const gn_context *context, gn_worker *worker, const uint3
         colour_directional(context, worker, lit, triangle, count, colour, GN_RGB565);
     if (mask)
         mask_row(context, worker, lit, triangle, count, mask);
-#if GN_STATISTICS
-    return count_seen(context, worker, triangle, count, tested);
-#else
-    *tested = 0;
-    return 0;
-#endif
+    return gn_count_seen(context, worker, triangle, count, tested);
 }

@@ -56,7 +56,7 @@ typedef enum gn_progress { GN_REGION_UNTOUCHED, GN_REGION_LAYERS, GN_REGION_DONE
 typedef struct gn_colour_pair {
     uint32_t triangle;
     uint32_t lit, unlit; /* as written to the image; lit: full light */
-    uint32_t distance;   /* spot: N.L = distance (near / |point - light| in 2^-30) 2^-shift, in 2^-16 */
+    uint32_t distance; /* directional: N.L in 2^-16; spot: N.L = distance (near / |point - light| in 2^-30) 2^-shift */
     uint8_t distance_shift;
     uint8_t faces_light; /* camera and light are on the same side */
 } gn_colour_pair;
@@ -66,6 +66,8 @@ typedef struct gn_worker {
     uint32_t *q;      /* camera pass: Q, later what the shadow test leaves */
     uint32_t *triangle;
     gn_colour_pair *colours;
+    struct gn_receiver_plane *planes; /* 0 without a receiver */
+    uint8_t *fraction;                /* camera pass: lit parts of 254 of a row; 0 without a reconstruction */
     gn_statistics statistics;
 } gn_worker;
 
@@ -138,6 +140,12 @@ gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *
 /* The places of a triangle's corners, for clipping. */
 void gn_triangle_places(const gn_view *view, const gn_object *object, const uint32_t index[3], gn_place corner[3]);
 
+/* Whether the light pass keeps two depths a texel: two layers, or the accumulator of slopes beside the first. */
+GN_INLINE int gn_has_second(const gn_plan *plan, const gn_settings *settings)
+{
+    return plan->layers == GN_LAYERS_TWO || settings->surface == GN_SLOPE;
+}
+
 /* Lay out the shared part of the block for one pass; returns its size. With a null context only the size. */
 uint64_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings);
 uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings);
@@ -158,8 +166,27 @@ void gn_falloff_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y
  * pixels that see a surface; *tested: of these, turned to the light. colour or mask may be 0. */
 void gn_make_pair(const gn_context *context, gn_colour_pair *pair, uint32_t triangle);
 void gn_clear_colours(gn_worker *worker);
-uint32_t gn_colour_row(const gn_context *context, gn_worker *worker, const uint32_t *lit, const uint32_t *triangle,
-                       int32_t count, void *colour, uint8_t *mask, uint32_t *tested);
+typedef uint32_t gn_colour_shader(const gn_context *context, gn_worker *worker, const uint32_t *lit,
+                                  const uint32_t *triangle, int32_t count, void *colour, uint8_t *mask,
+                                  uint32_t *tested);
+gn_colour_shader gn_colour_row;
+
+/* The pair of a triangle, from the worker's cache; the pixels of a row that see a surface, as gn_colour_row counts
+ * them; one pixel: returns the place of the next. */
+const gn_colour_pair *gn_find_pair(const gn_context *context, gn_worker *worker, uint32_t triangle);
+uint32_t gn_count_seen(const gn_context *context, gn_worker *worker, const uint32_t *triangle, int32_t count,
+                       uint32_t *tested);
+GN_INLINE uint8_t *gn_write_pixel(uint8_t *out, uint32_t colour, uint8_t format)
+{
+    if (format == GN_RGB565) {
+        *(uint16_t *)(void *)out = (uint16_t)colour;
+        return out + 2;
+    }
+    out[0] = (uint8_t)colour;
+    out[1] = (uint8_t)(colour >> 8);
+    out[2] = (uint8_t)(colour >> 16);
+    return out + 3;
+}
 
 /* gn_region.c: what a camera's begin needs by either method; check the arguments of a region's step and say where it
  * lies (*colour becomes 0 where none is wanted); colours and mask of one of its rows. */

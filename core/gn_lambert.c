@@ -69,6 +69,7 @@ void gn_make_pair(const gn_context *context, gn_colour_pair *pair, uint32_t tria
     if (light->kind == GN_DIRECTIONAL) {
         uint32_t cosine = gn_divide(dot >> 14, length);
         pair->lit = gn_pack(object->colour, gn_intensity(context, cosine), format);
+        pair->distance = cosine > 0x10000u ? 0x10000u : cosine;
         return;
     }
     /* N.L = h / near times near / |point - light|: of 2^-30 into 2^-16 */

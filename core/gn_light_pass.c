@@ -6,6 +6,7 @@
  * Culling follows from the mark of the mesh alone: closed meshes may lose their back or front faces, open ones never.
  * For second depth a triangle of an open mesh is inserted twice: a solid of zero thickness (Wang & Molnar 1994, 3.3).
  * For mixed the lowest bit of a depth marks it as open, so at equal depth the closed one is the nearer.
+ * For slope the second layer is an accumulator, the least v + h: h is what the triangle rises within half a texel.
  *
  * An empty layer holds the largest value. Cost: a texel 8 instructions on a Cortex-M4, two layers 14 at most.
  * Memory: map, 12 bytes a vertex, the second layer of one region a worker. */
@@ -18,7 +19,7 @@
 
 /* ---- spans ----------------------------------------------------------------------------------------------------- */
 
-typedef enum insertion { FIRST, TWO, TWICE, MARKED } insertion;
+typedef enum insertion { FIRST, TWO, TWICE, MARKED, RISING } insertion;
 
 typedef struct target {
     gn_depth *first;       /* of the map's first row */
@@ -27,6 +28,9 @@ typedef struct target {
     int32_t stride;
     gn_depth_plane plane;
     uint32_t open; /* 1: mark as open (mixed) */
+    uint32_t rise; /* h of the plane, units of z (slope) */
+    int steep;     /* too steep for plane: the other one */
+    gn_wide_plane steep_plane;
     insertion how;
 #if GN_VECTOR_16
     gn_u32x16 lanes; /* the plane's step to each of 16 texels */
@@ -75,10 +79,17 @@ GN_INLINE gn_depth cut(uint32_t z, insertion how, uint32_t open)
     return (gn_depth)(how == MARKED ? (z & ~1u) | open : z);
 }
 
+/* z + h, held within the range. */
+GN_INLINE uint32_t risen(uint32_t z, uint32_t rise)
+{
+    uint32_t sum = z + rise;
+    return sum < rise ? 0xffffffffu : sum;
+}
+
 GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t z, insertion how)
 {
     gn_depth *z1 = t->first + at, *end = z1 + count;
-    uint32_t dx = t->plane.dx, open = t->open;
+    uint32_t dx = t->plane.dx, open = t->open, rise = t->rise;
     if (how == FIRST) {
         do {
             insert_first(z1, cut(z, how, open));
@@ -89,10 +100,14 @@ GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t 
     gn_depth *z2 = t->second + (at - t->second_offset);
     do {
         gn_depth v = cut(z, how, open);
-        if (how == TWICE)
+        if (how == RISING) {
+            insert_first(z1, v);
+            insert_first(z2, cut(risen(z, rise), how, open));
+        } else if (how == TWICE) {
             insert_twice(z1, z2, v);
-        else
+        } else {
             insert_two(z1, z2, v);
+        }
         z1++;
         z2++;
         z += dx;
@@ -130,7 +145,11 @@ GN_INLINE void insert_lanes(const target *t, int32_t at, gn_u32x16 depth, gn_dep
     v |= far;
     gn_depthx16 *first = (gn_depthx16 *)(void *)(t->first + at), old = *first;
     *first = nearer(v, old);
-    if (how != FIRST) {
+    if (how == RISING) {
+        gn_depthx16 *least = (gn_depthx16 *)(void *)(t->second + (at - t->second_offset));
+        gn_u32x16 sum = depth + t->rise;
+        *least = nearer(*least, cut_lanes(sum | (gn_u32x16)(sum < t->rise)) | far);
+    } else if (how != FIRST) {
         gn_depthx16 *second = (gn_depthx16 *)(void *)(t->second + (at - t->second_offset));
         *second = nearer(*second, how == TWICE ? v : farther(v, old));
     }
@@ -157,10 +176,34 @@ GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t 
         insert_span(t, row * t->stride + left, right - left, start_depth(t, row, left), how);                          \
     }
 SPAN(span_first, FIRST)
+
+GN_INLINE void insert_any(const target *t, int32_t at, int32_t count, uint32_t z)
+{
+    if (t->how == FIRST)
+        insert_span(t, at, count, z, FIRST);
+    else if (t->how == TWO)
+        insert_span(t, at, count, z, TWO);
+    else if (t->how == TWICE)
+        insert_span(t, at, count, z, TWICE);
+    else if (t->how == MARKED)
+        insert_span(t, at, count, z, MARKED);
+    else
+        insert_span(t, at, count, z, RISING);
+}
+
 #if GN_VECTOR_16
+/* Texel by texel: such triangles cover few. */
+GN_INLINE void span_steep(const void *state, int32_t row, int32_t left, int32_t right)
+{
+    const target *t = state;
+    GN_TALLY(t->tally->centres += (uint32_t)(right - left);)
+    for (int32_t column = left; column < right; column++)
+        insert_any(t, row * t->stride + column, 1, gn_saturate(gn_wide_depth(&t->steep_plane, column, row)));
+}
 SPAN(span_two, TWO)
 SPAN(span_twice, TWICE)
 SPAN(span_marked, MARKED)
+SPAN(span_rising, RISING)
 
 #define TINY(name, how)                                                                                                \
     GN_INLINE void name(const void *state, int32_t row, int32_t column, gn_i32x16 outside)                             \
@@ -174,6 +217,7 @@ TINY(tiny_first, FIRST)
 TINY(tiny_two, TWO)
 TINY(tiny_twice, TWICE)
 TINY(tiny_marked, MARKED)
+TINY(tiny_rising, RISING)
 #else
 /* Flash before time: all ways of insertion share one walk, and choose by span; only the first layer has one of its own.
  */
@@ -181,16 +225,14 @@ GN_INLINE void span_any(const void *state, int32_t row, int32_t left, int32_t ri
 {
     const target *t = state;
     int32_t at = row * t->stride + left, count = right - left;
-    uint32_t z = start_depth(t, row, left);
     GN_TALLY(t->tally->centres += (uint32_t)count;)
-    if (t->how == FIRST)
-        insert_span(t, at, count, z, FIRST);
-    else if (t->how == TWO)
-        insert_span(t, at, count, z, TWO);
-    else if (t->how == TWICE)
-        insert_span(t, at, count, z, TWICE);
-    else
-        insert_span(t, at, count, z, MARKED);
+    if (GN_LIKELY(!t->steep)) {
+        insert_any(t, at, count, start_depth(t, row, left));
+        return;
+    }
+    int64_t z = gn_wide_depth(&t->steep_plane, left, row); /* such triangles cover few texels */
+    for (; count; count--, at++, z += t->steep_plane.dx)
+        insert_any(t, at, 1, gn_saturate(z));
 }
 #endif
 
@@ -207,15 +249,20 @@ WALK(walk_first, span_first, tiny_first)
 WALK(walk_two, span_two, tiny_two)
 WALK(walk_twice, span_twice, tiny_twice)
 WALK(walk_marked, span_marked, tiny_marked)
+WALK(walk_rising, span_rising, tiny_rising)
 
 static void walk_any(const target *t, const gn_rows *rows, const gn_window *window)
 {
-    if (t->how == TWO)
+    if (t->steep)
+        gn_walk(rows, window, rows->cut, span_steep, t);
+    else if (t->how == TWO)
         walk_two(t, rows, window);
     else if (t->how == TWICE)
         walk_twice(t, rows, window);
-    else
+    else if (t->how == MARKED)
         walk_marked(t, rows, window);
+    else
+        walk_rising(t, rows, window);
 }
 #else
 static GN_NOINLINE void walk_any(const target *t, const gn_rows *rows, const gn_window *window)
@@ -225,7 +272,7 @@ static GN_NOINLINE void walk_any(const target *t, const gn_rows *rows, const gn_
 
 static GN_NOINLINE void walk_first(const target *t, const gn_rows *rows, const gn_window *window)
 {
-    if (GN_UNLIKELY(rows->cut))
+    if (GN_UNLIKELY(rows->cut | t->steep))
         walk_any(t, rows, window);
     else
         gn_walk(rows, window, 0, span_first, t);
@@ -243,6 +290,8 @@ static int culled_sign(const gn_context *context, uint32_t object)
 
 static insertion choose_insertion(const gn_context *context, const gn_mesh *mesh)
 {
+    if (context->settings.surface == GN_SLOPE)
+        return RISING;
     if (context->plan.layers == GN_LAYERS_FIRST)
         return FIRST;
     if (context->settings.surface == GN_MIXED)
@@ -250,26 +299,30 @@ static insertion choose_insertion(const gn_context *context, const gn_mesh *mesh
     return context->settings.surface == GN_SECOND && !mesh->closed ? TWICE : TWO;
 }
 
-static void set_lanes(target *t)
+/* What spans need of a plane. */
+static void prepare_plane(target *t)
 {
+    if (t->how == RISING)
+        t->rise = t->steep ? gn_rise(t->steep_plane.dx, t->steep_plane.dy)
+                           : gn_rise((int32_t)t->plane.dx, (int32_t)t->plane.dy);
 #if GN_VECTOR_16
     static const gn_u32x16 lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     t->lanes = lane * t->plane.dx;
-#else
-    (void)t;
 #endif
 }
 
 static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
 {
-    gn_make_depth_plane(&t->plane, v0, v1, v2, area);
-    set_lanes(t);
+    t->steep = gn_make_depth_plane(&t->plane, v0, v1, v2, area);
+    if (GN_UNLIKELY(t->steep))
+        gn_make_steep_plane(&t->steep_plane, v0, v1, v2, area);
+    prepare_plane(t);
 }
 
 /* One clockwise triangle whose plane is set. */
 GN_INLINE void insert(const target *t, const gn_rows *rows, const gn_window *window)
 {
-    if (t->how == FIRST)
+    if (t->how == FIRST && (!GN_VECTOR_16 || !t->steep))
         walk_first(t, rows, window);
     else
         walk_any(t, rows, window);
@@ -290,10 +343,9 @@ static GN_NOINLINE void insert_clipped(const gn_context *context, target *t, con
     if (polygon.area == 0 || (polygon.area > 0 ? 1 : -1) == culled)
         return;
     const gn_vertex *v = polygon.v;
-    const gn_vertex *r1 = &v[polygon.reference], *r2 = r1 + 1;
-    set_plane(t, &v[0], polygon.area > 0 ? r1 : r2, polygon.area > 0 ? r2 : r1, polygon.area);
-    gn_fit_depth_plane(&t->plane, &polygon);
-    set_lanes(t);
+    gn_make_clipped_plane(&t->plane, &polygon);
+    t->steep = 0;
+    prepare_plane(t);
     for (int32_t i = 1; i + 1 < polygon.count; i++) {
         int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
         if (area == 0 || (area > 0) != (polygon.area > 0))
@@ -340,7 +392,7 @@ static void insert_mesh(const gn_context *context, target *t, uint32_t object_in
 
 /* ---- resolve --------------------------------------------------------------------------------------------------- */
 
-GN_INLINE gn_depth add_saturated(gn_depth z, gn_depth bias)
+GN_INLINE gn_depth add_saturated(gn_depth z, uint64_t bias)
 {
     uint32_t room = GN_FARTHEST - (uint32_t)z;
     return room < bias ? GN_FARTHEST : (gn_depth)(z + bias);
@@ -380,7 +432,16 @@ gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker
     case GN_SECOND:
         if (context->plan.layers == GN_LAYERS_TWO)
             for (size_t i = 0; i < count; i++)
-                z1[i] = z2[i];
+                z1[i] = add_saturated(z2[i], bias);
+        else
+            for (size_t i = 0; bias && i < count; i++)
+                z1[i] = add_saturated(z1[i], bias);
+        break;
+    case GN_SLOPE: /* z2 is the accumulator */
+        for (size_t i = 0; i < count; i++) {
+            uint64_t rise = gn_multiply_u((uint32_t)z2[i] - z1[i], (uint32_t)context->settings.slope) >> 16;
+            z1[i] = add_saturated(z1[i], rise + bias);
+        }
         break;
     default: /* GN_MIXED: an empty texel holds the largest value, whose lowest bit is set; dual keeps it. A second depth
               * gets the bit back that its mark took: what lies in its own unit is lit, as with the other surfaces */
@@ -449,7 +510,7 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     t.second_offset = (int32_t)(first_row * stride);
     t.stride = (int32_t)stride;
     clear(context->map + (size_t)first_row * stride, (size_t)rows * stride);
-    if (context->plan.layers == GN_LAYERS_TWO)
+    if (t.second)
         clear(t.second, (size_t)rows * stride);
     GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
     for (uint32_t i = 0; i < context->scene->object_count; i++) {
@@ -466,7 +527,7 @@ const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t reg
                          uint32_t *first_row, uint32_t *rows, uint32_t *stride)
 {
     if (!context || region >= context->plan.light_regions || worker >= context->settings.workers || layer > 1 ||
-        (layer == 1 && context->plan.layers != GN_LAYERS_TWO))
+        (layer == 1 && !gn_has_second(&context->plan, &context->settings)))
         return 0;
     uint32_t first = region * context->plan.map_rows, height = context->settings.map_height;
     *first_row = first;

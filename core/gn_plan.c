@@ -1,4 +1,5 @@
 /* Planning: what a scene needs, checked and laid out before anything is rendered. */
+#include "gn_cascade.h"
 #include "gn_volumes.h"
 
 gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_size)
@@ -11,7 +12,6 @@ gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_si
     s.format = GN_RGB888;
     s.workers = 1;
     s.bias.unit = GN_BIAS_TEXELS;
-    s.bias.value = 2 << 16;
     return s;
 }
 
@@ -21,10 +21,10 @@ static gn_status check_settings(const gn_settings *s)
         s->map_width > GN_MAX_SIZE || s->map_height < 1 || s->map_height > GN_MAX_SIZE || s->workers < 1 ||
         s->workers > 64 || s->region_width > GN_MAX_SIZE || s->region_height > GN_MAX_SIZE || s->map_rows > GN_MAX_SIZE)
         return GN_OUT_OF_RANGE;
-    if (s->cull > GN_CULL_FRONT || s->layers > GN_LAYERS_TWO || s->surface > GN_MIXED || s->format > GN_RGB565 ||
+    if (s->cull > GN_CULL_FRONT || s->layers > GN_LAYERS_TWO || s->surface > GN_SLOPE || s->format > GN_RGB565 ||
         s->mask > 1 || s->bias.unit > GN_BIAS_RANGE || s->shadow > GN_SHADOW_VOLUMES)
         return GN_BAD_ARGUMENT;
-    if (s->bias.unit == GN_BIAS_WORLD && s->bias.value > (1u << 28))
+    if ((s->bias.unit == GN_BIAS_WORLD && s->bias.value > (1u << 28)) || s->slope < 0 || s->slope > (64 << 16))
         return GN_OUT_OF_RANGE;
     return GN_OK;
 }
@@ -105,7 +105,7 @@ static gn_status choose_layers(gn_plan *plan, const gn_settings *s, int all_clos
                      (s->cull == GN_CULL_FRONT || (all_closed && s->cull == GN_CULL_AUTO));
     if (s->surface == GN_SECOND && s->layers == GN_LAYERS_FIRST && s->cull == GN_CULL_AUTO)
         back_layer = 1;
-    int one = s->surface == GN_CONSTANT || back_layer;
+    int one = s->surface == GN_CONSTANT || s->surface == GN_SLOPE || back_layer;
     plan->layers = s->layers ? s->layers : (one ? GN_LAYERS_FIRST : GN_LAYERS_TWO);
     plan->cull = s->cull;
     if (s->cull == GN_CULL_AUTO)
@@ -115,6 +115,8 @@ static gn_status choose_layers(gn_plan *plan, const gn_settings *s, int all_clos
     if (plan->layers == GN_LAYERS_TWO && plan->cull == GN_CULL_FRONT)
         return GN_UNSUPPORTED;
     if (s->surface == GN_MIXED && plan->cull != GN_CULL_NONE)
+        return GN_UNSUPPORTED;
+    if ((s->receiver || s->reconstruction) && (s->map_width < 2 || s->map_height < 2))
         return GN_UNSUPPORTED;
     return GN_OK;
 }
@@ -213,7 +215,7 @@ uint64_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_set
     gn_vertex *vertices = take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
     if (context)
         context->vertices = vertices;
-    for (uint32_t i = 0; plan->layers == GN_LAYERS_TWO && i < settings->workers; i++) {
+    for (uint32_t i = 0; gn_has_second(plan, settings) && i < settings->workers; i++) {
         gn_depth *second = take(base, &used, (uint64_t)plan->map_rows * map_stride(settings) * sizeof *second);
         if (context)
             context->workers[i].second = second;
@@ -247,7 +249,11 @@ uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_se
         uint64_t plane = ((uint64_t)pixels + GN_ROW_PADDING) * 4;
         uint32_t *q = take(base, &used, plane), *triangle = take(base, &used, plane);
         gn_colour_pair *colours = take(base, &used, GN_COLOUR_CACHE * sizeof *colours);
+        gn_receiver_plane *planes = take(base, &used, settings->receiver ? GN_COLOUR_CACHE * sizeof *planes : 0);
+        uint8_t *fraction = take(base, &used, settings->reconstruction ? plan->region_width : 0);
         if (context) {
+            context->workers[i].planes = settings->receiver ? planes : 0;
+            context->workers[i].fraction = settings->reconstruction ? fraction : 0;
             context->workers[i].q = q;
             context->workers[i].triangle = triangle;
             context->workers[i].colours = colours;
@@ -256,10 +262,22 @@ uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_se
     return used;
 }
 
-gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings)
+/* Without what says nothing: shadow volumes have no map to receive from. */
+static gn_settings effective(const gn_settings *settings)
 {
-    if (!plan || !scene || !settings)
+    gn_settings s = *settings;
+    if (s.shadow == GN_SHADOW_VOLUMES) {
+        s.receiver = 0;
+        s.reconstruction = 0;
+    }
+    return s;
+}
+
+gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *wanted)
+{
+    if (!plan || !scene || !wanted)
         return GN_BAD_ARGUMENT;
+    const gn_settings used = effective(wanted), *settings = &used;
     gn_plan p = {0};
     counts c;
     gn_status status = check_settings(settings);
@@ -314,7 +332,7 @@ gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings
     gn_context empty = {0};
     *c = empty;
     c->scene = scene;
-    c->settings = *settings;
+    c->settings = effective(settings);
     c->plan = plan;
     lay_out_head(c, scene, settings, &plan);
     gn_plan counted;
@@ -349,6 +367,12 @@ void gn_get_statistics(const gn_context *context, gn_statistics *statistics)
         sum.camera_fragments += s->camera_fragments;
         sum.pixels_shaded += s->pixels_shaded;
         sum.pixels_tested += s->pixels_tested;
+        sum.pixels_outside += s->pixels_outside;
+        sum.pixels_agreed += s->pixels_agreed;
+        sum.pixels_virtual += s->pixels_virtual;
+        sum.pixels_fractional += s->pixels_fractional;
+        sum.texels_read += s->texels_read;
+        sum.virtual_samples += s->virtual_samples;
         sum.volume_faces += s->volume_faces;
         sum.volume_fragments += s->volume_fragments;
     }

@@ -78,24 +78,61 @@ GN_INLINE uint32_t depth_gradient(int64_t n, const slopes *s, int *steep)
     return n < 0 ? 0u - g : g;
 }
 
-void gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                         int64_t area)
+static uint32_t farthest_depth(const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2)
+{
+    uint32_t farthest = v0->depth;
+    farthest = v1->depth > farthest ? v1->depth : farthest;
+    return v2->depth > farthest ? v2->depth : farthest;
+}
+
+int gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                        int64_t area)
 {
     slopes s = make_slopes(v0, v1, v2, area);
     int steep = 0;
     uint32_t gx = depth_gradient(s.nx, &s, &steep), gy = depth_gradient(s.ny, &s, &steep);
     if (GN_UNLIKELY(steep)) {
-        uint32_t farthest = v0->depth;
-        farthest = v1->depth > farthest ? v1->depth : farthest;
-        farthest = v2->depth > farthest ? v2->depth : farthest;
-        plane->base = 2 * farthest;
+        plane->base = 2 * farthest_depth(v0, v1, v2);
         plane->dx = plane->dy = 0;
-        return;
+        return 1;
     }
     int64_t shift = gn_multiply(128 - v0->x, (int32_t)gx) + gn_multiply(128 - v0->y, (int32_t)gy);
     plane->base = 2 * v0->depth + (uint32_t)gn_floor_shift_64(shift, 8);
     plane->dx = gx;
     plane->dy = gy;
+    return 0;
+}
+
+/* round(512 |n| / A) with n's sign; *sheer where that may reach 2^40. */
+static int64_t steep_gradient(int64_t n, const slopes *s, int *sheer)
+{
+    int32_t shift;
+    uint64_t q = quotient(n, s->reciprocal, s->area_shift, &shift);
+    int32_t left = shift + 9;
+    if (q == 0 || left < -32)
+        return 0;
+    if (left > 8) {
+        *sheer = 1;
+        return 0;
+    }
+    q = left < 0 ? ((q >> (-left - 1)) + 1) >> 1 : q << left;
+    return n < 0 ? -(int64_t)q : (int64_t)q;
+}
+
+void gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                         int64_t area)
+{
+    slopes s = make_slopes(v0, v1, v2, area);
+    int sheer = 0;
+    plane->dx = steep_gradient(s.nx, &s, &sheer);
+    plane->dy = steep_gradient(s.ny, &s, &sheer);
+    if (sheer) {
+        plane->base = 2 * (int64_t)farthest_depth(v0, v1, v2);
+        plane->dx = plane->dy = 0;
+        return;
+    }
+    int64_t shift = (128 - v0->x) * plane->dx + (128 - v0->y) * plane->dy;
+    plane->base = 2 * (int64_t)v0->depth + gn_floor_shift_64(shift, 8);
 }
 
 /* floor(2^32 |n| / A) with n's sign: Q a 1/256 pixel, 32 fraction bits; *steep where that reaches 2^54. */

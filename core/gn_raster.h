@@ -45,15 +45,42 @@ typedef struct gn_depth_plane {
     uint32_t base, dx, dy;
 } gn_depth_plane;
 
+/* The same in 64 bits, without wrapping: for planes that are too steep for 32, and beyond a plane's triangle. */
+typedef struct gn_wide_plane {
+    int64_t base, dx, dy;
+} gn_wide_plane;
+
+/* Its value at a texel, held within the range of depths. */
+GN_INLINE uint32_t gn_saturate(int64_t z)
+{
+    return (uint32_t)((uint64_t)z >> 32) == 0 ? (uint32_t)z : z < 0 ? 0 : 0xffffffffu;
+}
+
+GN_INLINE int64_t gn_wide_depth(const gn_wide_plane *plane, int32_t column, int32_t row)
+{
+    return plane->base + column * plane->dx + row * plane->dy;
+}
+
+/* What a plane rises within half a texel, (|dx| + |dy|) / 2, held within the range. */
+GN_INLINE uint32_t gn_rise(int64_t dx, int64_t dy)
+{
+    return gn_saturate(gn_floor_shift_64((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy), 1));
+}
+
 /* Q in the camera pass, with 32 fraction bits, modulo 2^64: Q(i, j) = floor((base + i dx + j dy) / 2^32). */
 typedef struct gn_q_plane {
     uint64_t base, dx, dy;
 } gn_q_plane;
 
 /* The plane through three vertices with gradients g = 512 N / A, relative error 2^-29, + 1/2. Where a gradient reaches
- * 2^30, a quarter of the depth range in one texel, the triangle is all but edge-on: z is then constant, the farthest
- * vertex's. area != 0, of either sign. */
-void gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+ * 2^30, a quarter of the depth range in one texel, *plane is constant, the farthest vertex's, and the result is 1: then
+ * gn_make_steep_plane has the plane itself. area != 0, of either sign. */
+int gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                        int64_t area);
+
+/* The same for steep ones, up to the whole range in 1/256 texel, which is what vertices are snapped to; beyond, z is
+ * constant, the farthest vertex's. */
+void gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
                          int64_t area);
 
 /* The same for Q: gradients with 32 fraction bits, relative error 2^-29; too steep: constant, the farthest Q. */

@@ -1,5 +1,5 @@
 /* Regions of the image: where they lie, and what is written of them. Shared by shadow maps and shadow volumes. */
-#include "gn_context.h"
+#include "gn_cascade.h"
 
 gn_status gn_begin_regions(gn_context *context, const gn_camera *camera, int32_t *largest_w)
 {
@@ -10,8 +10,12 @@ gn_status gn_begin_regions(gn_context *context, const gn_camera *camera, int32_t
         gn_make_camera_view(&context->camera_view, camera, context->settings.width, context->settings.height);
     if (status == GN_OK)
         status = gn_transform_scene(context, &context->camera_view, largest_w, &inside);
-    for (uint32_t i = 0; i < context->settings.workers; i++)
-        gn_clear_colours(&context->workers[i]);
+    for (uint32_t i = 0; i < context->settings.workers; i++) {
+        gn_worker *worker = &context->workers[i];
+        gn_clear_colours(worker);
+        for (uint32_t p = 0; worker->planes && p < GN_COLOUR_CACHE; p++)
+            worker->planes[p].triangle = GN_NO_TRIANGLE;
+    }
     return status;
 }
 
@@ -49,10 +53,11 @@ gn_status gn_find_region(const gn_context *context, uint32_t region, uint32_t wo
 void gn_colour_region_row(const gn_context *context, gn_worker *worker, void *colour, uint8_t *mask, uint32_t row,
                           uint32_t width)
 {
+    const gn_reconstruction *how = context->settings.reconstruction;
+    gn_colour_shader *shade = how ? how->colour : gn_colour_row;
     uint32_t from = row * width, pixel_bytes = context->settings.format == GN_RGB888 ? 3 : 2, tested = 0;
-    uint32_t seen =
-        gn_colour_row(context, worker, worker->q + from, worker->triangle + from, (int32_t)width,
-                      colour ? (uint8_t *)colour + (size_t)from * pixel_bytes : 0, mask ? mask + from : 0, &tested);
+    uint32_t seen = shade(context, worker, worker->q + from, worker->triangle + from, (int32_t)width,
+                          colour ? (uint8_t *)colour + (size_t)from * pixel_bytes : 0, mask ? mask + from : 0, &tested);
 #if GN_STATISTICS
     worker->statistics.pixels_shaded += seen;
     worker->statistics.pixels_tested += tested;

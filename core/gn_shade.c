@@ -8,43 +8,15 @@
  * that reciprocal. Error bounds: docs/number-formats.md.
  *
  * Cost: one reciprocal and three high products a pixel (spot: two and six). Lit where z <= stored: ties are lit. */
-#include "gn_context.h"
+#include "gn_shade.h"
 
 /* W = 2^(61 - shift) / Q, at most 2^31: Q is at least 2^(30 - shift), which is what a pixel without a surface holds. */
-static void row_of_w(uint32_t *q, int32_t count, uint32_t shift)
+void gn_row_of_w(uint32_t *q, int32_t count, uint32_t shift)
 {
     for (int32_t i = 0; i < count; i++) {
         unsigned k = gn_leading_zeros(q[i]);
         q[i] = gn_reciprocal(q[i] << k) >> (1 + shift - k);
     }
-}
-
-GN_INLINE uint32_t product(uint32_t w, uint32_t b)
-{
-    return (uint32_t)gn_multiply_high((int32_t)w, (int32_t)b);
-}
-
-/* The value of a linear expression at the start of a row. */
-typedef struct runner {
-    uint32_t a, b, a_dx, b_dx;
-} runner;
-
-GN_INLINE runner start(const gn_linear *l, int32_t x, int32_t y)
-{
-    runner r;
-    r.a = l->a + (uint32_t)x * l->a_dx + (uint32_t)y * l->a_dy;
-    r.b = l->b + (uint32_t)x * l->b_dx + (uint32_t)y * l->b_dy;
-    r.a_dx = l->a_dx;
-    r.b_dx = l->b_dx;
-    return r;
-}
-
-GN_INLINE uint32_t next(runner *r, uint32_t w)
-{
-    uint32_t value = r->a + product(w, r->b);
-    r->a += r->a_dx;
-    r->b += r->b_dx;
-    return value;
 }
 
 /* Depth in units of 1/65536 with bits fraction bits, cut as the light pass cuts it. Lit where it is at most what the
@@ -91,10 +63,10 @@ GN_INLINE uint32_t test_box(const gn_context *context, const lookup *l, uint32_t
 static void shade_directional(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count)
 {
     const gn_linear *c = context->shading.coordinate;
-    runner u = start(&c[0], x, y), v = start(&c[1], x, y), z = start(&c[2], x, y);
+    gn_runner u = gn_start_row(&c[0], x, y), v = gn_start_row(&c[1], x, y), z = gn_start_row(&c[2], x, y);
     lookup l = make_lookup(context);
     for (int32_t i = 0; i < count; i++) {
-        uint32_t w = q[i], depth = next(&z, w), column = next(&u, w), row = next(&v, w);
+        uint32_t w = q[i], depth = gn_step(&z, w), column = gn_step(&u, w), row = gn_step(&v, w);
         if (!context->shading.trusted)
             depth = test_box(context, &l, column, row, depth);
         q[i] = compare(depth, l.depth_bits, l.map[find_texel(&l, column, row)]);
@@ -112,11 +84,13 @@ static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int
     lookup l = make_lookup(context);
     for (int32_t from = 0; from < count; from += BLOCK, q += BLOCK) {
         int32_t n = count - from < BLOCK ? count - from : BLOCK;
-        runner u = start(&c[0], x + from, y), v = start(&c[1], x + from, y), z = start(&c[2], x + from, y);
+        gn_runner u = gn_start_row(&c[0], x + from, y), v = gn_start_row(&c[1], x + from, y),
+                  z = gn_start_row(&c[2], x + from, y);
         for (int32_t i = 0; i < n; i++) {
             uint32_t w = q[i], step = (uint32_t)i;
-            texel[i] = find_texel(&l, u.a + product(w, u.b + step * u.b_dx), v.a + product(w, v.b + step * v.b_dx));
-            depth[i] = z.a + product(w, z.b + step * z.b_dx);
+            texel[i] =
+                find_texel(&l, u.a + gn_w_product(w, u.b + step * u.b_dx), v.a + gn_w_product(w, v.b + step * v.b_dx));
+            depth[i] = z.a + gn_w_product(w, z.b + step * z.b_dx);
         }
         for (int32_t i = 0; i < n; i++)
             q[i] = compare(depth[i], l.depth_bits, l.map[texel[i]]);
@@ -126,11 +100,11 @@ static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int
 static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count)
 {
     const gn_linear *c = context->shading.coordinate;
-    runner u = start(&c[0], x, y), v = start(&c[1], x, y), z = start(&c[2], x, y);
+    gn_runner u = gn_start_row(&c[0], x, y), v = gn_start_row(&c[1], x, y), z = gn_start_row(&c[2], x, y);
     lookup l = make_lookup(context);
     for (uint32_t *end = q + count; q != end; q++) {
-        uint32_t w = *q, texel = find_texel(&l, u.a + product(w, u.b), v.a + product(w, v.b));
-        *q = compare(z.a + product(w, z.b), l.depth_bits, l.map[texel]);
+        uint32_t w = *q, texel = find_texel(&l, u.a + gn_w_product(w, u.b), v.a + gn_w_product(w, v.b));
+        *q = compare(z.a + gn_w_product(w, z.b), l.depth_bits, l.map[texel]);
         u.b += u.b_dx;
         v.b += v.b_dx;
         z.b += z.b_dx;
@@ -147,7 +121,7 @@ static const uint16_t inverse_root[49] = {32768, 31790, 30894, 30070, 29309, 286
 
 /* near / |point - light| in 2^-30: nearness / sqrt(s), s = 1 + tan^2 (x^2 + y^2) with x, y in -1 .. 1 across the map.
  * The root is interpolated between 48 values; relative error 2^-11. */
-static uint32_t over_distance(uint32_t nearness, uint32_t u, uint32_t v, uint32_t tan_squared)
+uint32_t gn_over_distance(uint32_t nearness, uint32_t u, uint32_t v, uint32_t tan_squared)
 {
     int32_t x = (int32_t)(u >> 14) - (1 << 15), y = (int32_t)(v >> 14) - (1 << 15);
     uint32_t squared = (uint32_t)(x * x) + (uint32_t)(y * y); /* 2^30 = 1 */
@@ -159,29 +133,19 @@ static uint32_t over_distance(uint32_t nearness, uint32_t u, uint32_t v, uint32_
     return (uint32_t)(gn_multiply_u(nearness, inverse) >> (21 - even / 2));
 }
 
-/* u, v and near / w in 2^-30, from (X + W) / 2, (Y + W) / 2 and W; returns the last. */
-GN_INLINE uint32_t divide_place(const gn_shading *s, uint32_t *left, uint32_t *top, uint32_t w)
-{
-    unsigned k = gn_leading_zeros(w);
-    uint32_t r = gn_reciprocal(w << k);
-    *left = (uint32_t)(gn_multiply_u(*left << k, r) >> 32);
-    *top = (uint32_t)(gn_multiply_u(*top << k, r) >> 32);
-    uint32_t nearness = (uint32_t)(gn_multiply_u(s->near_w << k, r) >> 32);
-    return nearness > 1u << 30 ? 1u << 30 : nearness;
-}
-
 static void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count)
 {
     const gn_shading *s = &context->shading;
     const gn_view *light = &context->light_view;
-    runner u = start(&s->coordinate[0], x, y), v = start(&s->coordinate[1], x, y), d = start(&s->coordinate[2], x, y);
+    gn_runner u = gn_start_row(&s->coordinate[0], x, y), v = gn_start_row(&s->coordinate[1], x, y),
+              d = gn_start_row(&s->coordinate[2], x, y);
     uint32_t width = context->settings.map_width, height = context->settings.map_height;
     for (int32_t i = 0; i < count; i++) {
-        uint32_t w = q[i], left = next(&u, w), top = next(&v, w), distance = next(&d, w);
+        uint32_t w = q[i], left = gn_step(&u, w), top = gn_step(&v, w), distance = gn_step(&d, w);
         q[i] = 0x80000000u;
         if (distance - s->near_w > s->far_w - s->near_w || left >= distance || top >= distance)
             continue; /* outside the frustum: unlit */
-        uint32_t nearness = divide_place(s, &left, &top, distance);
+        uint32_t nearness = gn_divide_place(s, &left, &top, distance);
         uint32_t column = (uint32_t)(gn_multiply_u(left, width << 2) >> 32);
         uint32_t row = (uint32_t)(gn_multiply_u(top, height << 2) >> 32);
         column = column >= width ? width - 1 : column;
@@ -191,7 +155,7 @@ static void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int32_
         z = z > 0x7fffffffu ? 0x7fffffffu : z; /* short ranges: the reciprocal's error exceeds the guard */
         if ((gn_depth)((2 * z) >> (32 - GN_DEPTH_BITS)) > context->map[row * context->map_stride + column])
             continue;
-        q[i] = over_distance(nearness, left, top, context->tan_squared);
+        q[i] = gn_over_distance(nearness, left, top, context->tan_squared);
     }
 }
 
@@ -199,7 +163,7 @@ void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, 
 {
     int perspective = !context->camera_view.affine;
     if (perspective)
-        row_of_w(q, count, context->shading.w_shift);
+        gn_row_of_w(q, count, context->shading.w_shift);
     if (context->light.kind == GN_SPOT)
         shade_spot(context, q, x, y, count);
     else if (perspective && context->shading.trusted)
@@ -212,15 +176,16 @@ void gn_falloff_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y
 {
     const gn_shading *s = &context->shading;
     if (!context->camera_view.affine)
-        row_of_w(q, count, s->w_shift);
-    runner u = start(&s->coordinate[0], x, y), v = start(&s->coordinate[1], x, y), d = start(&s->coordinate[2], x, y);
+        gn_row_of_w(q, count, s->w_shift);
+    gn_runner u = gn_start_row(&s->coordinate[0], x, y), v = gn_start_row(&s->coordinate[1], x, y),
+              d = gn_start_row(&s->coordinate[2], x, y);
     for (int32_t i = 0; i < count; i++) {
-        uint32_t w = q[i], left = next(&u, w), top = next(&v, w), distance = next(&d, w);
+        uint32_t w = q[i], left = gn_step(&u, w), top = gn_step(&v, w), distance = gn_step(&d, w);
         /* what rounding moves out of the frustum, and pixels without a surface */
         distance = distance - s->near_w > s->far_w - s->near_w ? s->near_w : distance;
         left = left > distance ? distance : left;
         top = top > distance ? distance : top;
-        uint32_t nearness = divide_place(s, &left, &top, distance);
-        q[i] = over_distance(nearness, left, top, context->tan_squared);
+        uint32_t nearness = gn_divide_place(s, &left, &top, distance);
+        q[i] = gn_over_distance(nearness, left, top, context->tan_squared);
     }
 }

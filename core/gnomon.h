@@ -229,9 +229,28 @@ typedef enum gn_surface {
     GN_CONSTANT = 0, /* z1 + bias */
     GN_MIDPOINT,     /* (z1 + z2) / 2                                   (Woo 1992) */
     GN_DUAL,         /* z1 + min((z2 - z1) / 2, bias)                    (Weiskopf & Ertl 2003, eq. 2) */
-    GN_SECOND,       /* z2, open meshes counting twice; or z1 with front faces culled (Wang & Molnar 1994) */
-    GN_MIXED         /* z2 where the nearest layer is closed, dual where it is open */
+    GN_SECOND,       /* z2 + bias, open meshes counting twice; or z1 with front faces culled (Wang & Molnar 1994) */
+    GN_MIXED,        /* z2 where the nearest layer is closed, dual where it is open */
+    GN_SLOPE         /* z1 + slope (m - z1) + bias; m: least z + half a texel of its own slope, of all triangles */
 } gn_surface;
+
+/* The receiver: the depth with which a pixel is compared. Each is linked only where it is named; none (0): the depth
+ * of the pixel's own point. All but that take the plane of the triangle that the pixel sees, as the light pass draws
+ * it: 32 bytes an entry of GN_COLOUR_CACHE and worker. docs/shadow-test.md. */
+typedef struct gn_receiver gn_receiver;
+extern const gn_receiver gn_plane_bias; /* the point's depth less settings.slope times half a texel of its plane's slope
+                                         */
+extern const gn_receiver gn_virtual;    /* where the texels about the point disagree on its depth, the plane's depth at
+                                         * the texels' centres (Wang & Molnar 1994, 3.2) */
+extern const gn_receiver gn_virtual_always; /* that depth at every pixel */
+
+/* The reconstruction: what is made of the comparisons. Each is linked only where it is named; none (0): the texel that
+ * holds the point decides. All others give a fraction of light, in 254 steps, by percentage-closer filtering (Reeves et
+ * al. 1987): comparisons are weighted, never depths. Texels beyond the map are those of its border. */
+typedef struct gn_reconstruction gn_reconstruction;
+extern const gn_reconstruction gn_bilinear;   /* the four texels about the point, by its place between them */
+extern const gn_reconstruction gn_jitter_4x4; /* 16 texels, one from each cell of 4 x 4, picked by a fixed matrix */
+extern const gn_reconstruction gn_box_3x3, gn_box_5x5, gn_box_7x7; /* the texels about the point's own, alike */
 
 typedef enum gn_bias_unit {
     GN_BIAS_WORLD = 0, /* whole world units along the light (spot: converted at w = sqrt(near far)) */
@@ -258,10 +277,13 @@ typedef struct gn_settings {
     uint16_t map_rows; /* rows of a light region; 0: the whole map. Trades RAM of the second layer against time */
     uint8_t cull, layers, surface; /* gn_cull, gn_layers, gn_surface */
     uint8_t format;                /* gn_format */
-    uint8_t mask;                  /* 1: also deliver masks: 0 shadowed, 254 lit, 255 no surface */
+    uint8_t mask;                  /* 1: also deliver masks: 0 shadowed ... 254 lit, 255 no surface */
     uint8_t workers;               /* how many regions may be rendered at once, 1 to 64 */
-    uint8_t shadow; /* gn_shadow; with volumes map sizes, cull, layers, surface and bias are checked and say nothing */
-    gn_bias bias;   /* of GN_CONSTANT, GN_DUAL and GN_MIXED */
+    uint8_t shadow;  /* gn_shadow; with volumes map sizes, cull, layers, surface and bias are checked and say nothing */
+    gn_bias bias;    /* of all surfaces but GN_MIDPOINT */
+    gn_q16_16 slope; /* of GN_SLOPE and gn_plane_bias: 0 to 64 */
+    const gn_receiver *receiver;             /* 0: the point. Says nothing with volumes */
+    const gn_reconstruction *reconstruction; /* 0: the nearest texel. The same */
 } gn_settings;
 
 /* Second depth with everything else left to gn_make_plan: no bias to choose for closed meshes. */
@@ -284,7 +306,8 @@ typedef struct gn_plan {
 typedef struct gn_context gn_context;
 
 /* Say what the scene needs, and check every mesh (indices, ranges); nothing is written but *plan. GN_UNSUPPORTED:
- * settings that make no sense together, or volumes and a mesh without edges. */
+ * settings that make no sense together, volumes and a mesh without edges, or a receiver or
+ * a reconstruction and a map that is less than 2 texels wide or high. */
 gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings);
 
 /* Take the block; the scene (not the settings) must outlive the context. Nothing outside the block is ever written.
@@ -305,9 +328,9 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light);
 gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker);
 gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker);
 
-/* Between layers and resolve: the first (0) or second (1) layer of the region on that worker, after resolve (0): the
- * map. Row i of the region starts at index i * *stride. 0 if there is no such layer. GN_MIXED marks open texels in
- * the lowest bit. */
+/* Between layers and resolve: the first (0) or second (1; of GN_SLOPE: m) layer of the region on that worker, after
+ * resolve (0): the map. Row i of the region starts at index i * *stride. 0 if there is no such layer. GN_MIXED marks
+ * open texels in the lowest bit. */
 const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t region, uint32_t worker,
                          uint32_t *first_row, uint32_t *rows, uint32_t *stride);
 
@@ -356,9 +379,15 @@ typedef struct gn_statistics {
     uint64_t camera_triangles; /* set up in the camera pass, each region counted */
     uint64_t camera_fragments; /* covered by them */
     uint64_t pixels_shaded;    /* pixels that see a surface */
-    uint64_t pixels_tested;    /* of them: looked up in the map, or counted in volumes */
-    uint64_t silhouette_edges; /* of the latest gn_volumes_light */
-    uint64_t volume_faces;     /* set up in the camera pass, each region counted */
+    uint64_t pixels_tested;    /* of them: turned to the light: looked up in the map, or counted in volumes */
+    /* of pixels_tested, with a receiver or a reconstruction: how far down the cascade of docs/shadow-test.md */
+    uint64_t pixels_outside;               /* of the light's box or frustum: no texel read */
+    uint64_t pixels_agreed;                /* all texels agreed on the point's depth */
+    uint64_t pixels_virtual;               /* decided by virtual samples: all agreed, or the one that counts */
+    uint64_t pixels_fractional;            /* partly lit */
+    uint64_t texels_read, virtual_samples; /* depths compared in all; of them with virtual samples */
+    uint64_t silhouette_edges;             /* of the latest gn_volumes_light */
+    uint64_t volume_faces;                 /* set up in the camera pass, each region counted */
     uint64_t volume_fragments; /* covered by them; over camera_fragments: the overdraw factor O of Sen et al. */
     uint64_t map_bytes;
 } gn_statistics;

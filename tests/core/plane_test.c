@@ -399,10 +399,10 @@ static void planes_of_clipped_triangles_do_not_wrap(uint64_t cases)
         gn_window map = {0, 0, 512, 512};
         uint64_t wrapped = r.wrapped;
         polygons++;
-        gn_make_depth_plane(&r.plane, &v[0], polygon.area > 0 ? r1 : r2, polygon.area > 0 ? r2 : r1, polygon.area);
-        uint32_t base = r.plane.base;
-        gn_fit_depth_plane(&r.plane, &polygon);
-        moved += r.plane.base != base;
+        gn_depth_plane unmoved;
+        gn_make_depth_plane(&unmoved, &v[0], polygon.area > 0 ? r1 : r2, polygon.area > 0 ? r2 : r1, polygon.area);
+        gn_make_clipped_plane(&r.plane, &polygon);
+        moved += r.plane.base != unmoved.base;
         for (int i = 1; i + 1 < polygon.count; i++) {
             int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
             gn_rows rows;

@@ -110,11 +110,12 @@ typedef struct places {
 static int shaded_place(real out[3], const gn_context *context, uint32_t q, int32_t x, int32_t y, uint32_t *w)
 {
     const gn_shading *s = &context->shading;
-    runner r[3] = {start(&s->coordinate[0], x, y), start(&s->coordinate[1], x, y), start(&s->coordinate[2], x, y)};
+    gn_runner r[3] = {gn_start_row(&s->coordinate[0], x, y), gn_start_row(&s->coordinate[1], x, y),
+                      gn_start_row(&s->coordinate[2], x, y)};
     *w = q;
     if (!context->camera_view.affine)
-        row_of_w(w, 1, s->w_shift);
-    uint32_t value[3] = {next(&r[0], *w), next(&r[1], *w), next(&r[2], *w)};
+        gn_row_of_w(w, 1, s->w_shift);
+    uint32_t value[3] = {gn_step(&r[0], *w), gn_step(&r[1], *w), gn_step(&r[2], *w)};
     if (context->light.kind == GN_DIRECTIONAL) {
         for (int i = 0; i < 3; i++)
             out[i] = ldexpl((int32_t)value[i], -(i < 2 ? s->position_bits : s->depth_bits));

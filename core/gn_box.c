@@ -1,0 +1,78 @@
+/* Percentage-closer filtering over a box: N x N texels about the one that holds the point, alike (Reeves et al. 1987).
+ * The texels of the border stand for those beyond it. Cost: N x N comparisons. */
+#include "gn_cascade.h"
+
+/* The part of a box along one axis that lies on the map, and how often its ends count for what lies beyond. */
+typedef struct side {
+    uint32_t first, last;
+    uint32_t before, beyond;
+} side;
+
+GN_INLINE side make_side(uint32_t u, uint32_t end, uint32_t bits, uint32_t radius)
+{
+    uint32_t texel = u >> bits;
+    texel = texel > end ? end : texel;
+    side s = {0, end, 0, 0};
+    if (texel >= radius)
+        s.first = texel - radius;
+    else
+        s.before = radius - texel;
+    if (texel + radius <= end)
+        s.last = texel + radius;
+    else
+        s.beyond = texel + radius - end;
+    return s;
+}
+
+/* The lit texels of a box by a plane, or, where that is 0, by one depth. */
+GN_INLINE uint32_t count_lit(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t z, const gn_receiver_plane *plane,
+                             uint32_t radius)
+{
+    side across = make_side(u, l->last_column, l->bits, radius), down = make_side(v, l->last_row, l->bits, radius);
+    const gn_depth *line = l->map + down.first * l->stride;
+    int64_t start = plane ? gn_wide_depth(&plane->plane, (int32_t)across.first, (int32_t)down.first) : 0;
+    uint32_t lit = 0;
+    z = gn_cut(z);
+    for (uint32_t row = down.first; row <= down.last; row++, line += l->stride) {
+        const gn_depth *texel = line + across.first, *end = line + across.last;
+        int64_t depth = start;
+        uint32_t in_row = 0, is = 0;
+        for (; texel <= end; texel++) {
+            if (plane) {
+                z = gn_cut(gn_saturate(depth));
+                depth += plane->plane.dx;
+            }
+            is = z <= *texel;
+            in_row += texel == line + across.first ? is * (1 + across.before) : is;
+        }
+        in_row += is * across.beyond;
+        lit += in_row * (1 + (row == down.first ? down.before : 0) + (row == down.last ? down.beyond : 0));
+        if (plane)
+            start += plane->plane.dy;
+    }
+    return lit;
+}
+
+GN_INLINE void vote(const gn_lookup *lookup, gn_points *points, uint32_t radius)
+{
+    const gn_lookup l = *lookup;
+    for (int32_t i = 0; i < points->count; i++) {
+        uint32_t z = points->z[i];
+        points->lit[i] = points->u[i] == GN_NOWHERE ? gn_lit_nowhere(&l, z)
+                                                    : count_lit(&l, points->u[i], points->v[i], z, 0, radius);
+    }
+}
+
+static void vote_any(const gn_lookup *lookup, gn_points *points)
+{
+    vote(lookup, points, lookup->whole == 9 ? 1 : lookup->whole == 25 ? 2 : 3);
+}
+
+static uint32_t sample(const gn_lookup *l, const gn_points *points, int32_t i, const gn_receiver_plane *plane)
+{
+    return count_lit(l, points->u[i], points->v[i], 0, plane, l->whole == 9 ? 1 : l->whole == 25 ? 2 : 3);
+}
+
+const gn_reconstruction gn_box_3x3 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 9, 9, 9};
+const gn_reconstruction gn_box_5x5 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 25, 25, 25};
+const gn_reconstruction gn_box_7x7 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 49, 49, 49};

@@ -1,0 +1,54 @@
+/* What every shadow test of a row begins with: from Q to W, linear expressions of the view stepped along the row, and a
+ * spot light's division. gn_shade.c says what they mean. */
+#ifndef GN_SHADE_H
+#define GN_SHADE_H
+
+#include "gn_context.h"
+
+/* W = 2^(61 - shift) / Q of a row, in place. */
+void gn_row_of_w(uint32_t *q, int32_t count, uint32_t shift);
+
+/* near / |point - light| in 2^-30 from near / w, and u, v in 2^-30 of the map. */
+uint32_t gn_over_distance(uint32_t nearness, uint32_t u, uint32_t v, uint32_t tan_squared);
+
+/* floor(w b / 2^32), b signed. */
+GN_INLINE uint32_t gn_w_product(uint32_t w, uint32_t b)
+{
+    return (uint32_t)gn_multiply_high((int32_t)w, (int32_t)b);
+}
+
+/* The value of a linear expression at the start of a row. */
+typedef struct gn_runner {
+    uint32_t a, b, a_dx, b_dx;
+} gn_runner;
+
+GN_INLINE gn_runner gn_start_row(const gn_linear *l, int32_t x, int32_t y)
+{
+    gn_runner r;
+    r.a = l->a + (uint32_t)x * l->a_dx + (uint32_t)y * l->a_dy;
+    r.b = l->b + (uint32_t)x * l->b_dx + (uint32_t)y * l->b_dy;
+    r.a_dx = l->a_dx;
+    r.b_dx = l->b_dx;
+    return r;
+}
+
+GN_INLINE uint32_t gn_step(gn_runner *r, uint32_t w)
+{
+    uint32_t value = r->a + gn_w_product(w, r->b);
+    r->a += r->a_dx;
+    r->b += r->b_dx;
+    return value;
+}
+
+/* u, v and near / w in 2^-30, from (X + W) / 2, (Y + W) / 2 and W; returns the last. */
+GN_INLINE uint32_t gn_divide_place(const gn_shading *s, uint32_t *left, uint32_t *top, uint32_t w)
+{
+    unsigned k = gn_leading_zeros(w);
+    uint32_t r = gn_reciprocal(w << k);
+    *left = (uint32_t)(gn_multiply_u(*left << k, r) >> 32);
+    *top = (uint32_t)(gn_multiply_u(*top << k, r) >> 32);
+    uint32_t nearness = (uint32_t)(gn_multiply_u(s->near_w << k, r) >> 32);
+    return nearness > 1u << 30 ? 1u << 30 : nearness;
+}
+
+#endif
