@@ -236,8 +236,8 @@ profile: $(BENCH_TARGETS:%=$(BUILD)/bench/%.profile) ## say what each function t
 	@awk 'FNR == 1 { n = 0 } $$1 == "case" { name[n++] = $$2 } $$1 == "region" { print FILENAME, name[$$2], $$4 } \
 		$$1 == "function" && $$2 > 100 { printf "%12d %s\n", $$2, $$3 }' $^
 
-# One job by a map and by shadow volumes.
-FOOTPRINTS := footprint footprint_volumes
+# One job by a map, by shadow volumes, and with each way to test a pixel.
+FOOTPRINTS := $(basename $(notdir $(wildcard port/footprint/*.c)))
 $(FOOTPRINTS:%=$(BUILD)/objects/cortex-m4-16/port/footprint/%.o): $(BUILD)/golden/footprint.h
 $(BUILD)/cortex-m4-16/footprint/%.elf: cortex-m4_LINK = $(call arm_link,port/footprint/board.ld)
 $(BUILD)/cortex-m4-16/footprint/%.txt: $(BUILD)/cortex-m4-16/footprint/%.elf

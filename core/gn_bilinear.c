@@ -11,29 +11,30 @@ typedef struct tent {
     uint32_t x, y;                 /* weight of the second column and row, 0 to 256 */
 } tent;
 
-/* Place along one axis: the first texel, and the weight of the second. */
-GN_INLINE uint32_t place(uint32_t u, uint32_t last, uint32_t bits, uint32_t *weight)
+/* Along one axis: the first texel, and the weight of the second. */
+GN_INLINE uint32_t split(uint32_t place, uint32_t last, uint32_t bits, uint32_t *weight)
 {
-    uint32_t half = (uint32_t)1 << (bits - 1), moved = u - half, texel = moved >> bits;
+    uint32_t texel = place >> bits;
     if (GN_LIKELY(texel < last)) {
-        *weight = moved >> (bits - 8) & 255u;
+        *weight = place >> (bits - 8) & 255u;
         return texel;
     }
-    *weight = u < half ? 0 : 256;
-    return u < half ? 0 : last - 1;
+    int before = place >> 31 != 0;
+    *weight = before ? 0 : 256;
+    return before ? 0 : last - 1;
 }
 
 GN_INLINE tent make_tent(const gn_lookup *l, uint32_t u, uint32_t v)
 {
     tent t;
-    t.column = place(u, l->last_column, l->bits, &t.x);
-    t.row = place(v, l->last_row, l->bits, &t.y);
+    t.column = split(u, l->last_column, l->bits, &t.x);
+    t.row = split(v, l->last_row, l->bits, &t.y);
     t.above = l->map + t.row * l->stride + t.column;
     t.below = t.above + l->stride;
     return t;
 }
 
-/* The lit shares, by four comparisons. */
+/* The shadowed shares, of four comparisons. */
 GN_INLINE uint32_t weigh(const tent *t, int above0, int above1, int below0, int below1)
 {
     uint32_t above = (above0 ? 256 - t->x : 0) + (above1 ? t->x : 0);
@@ -47,23 +48,25 @@ static void vote(const gn_lookup *lookup, gn_points *points)
     for (int32_t i = 0; i < points->count; i++) {
         uint32_t z = points->z[i];
         if (points->u[i] == GN_NOWHERE) {
-            points->lit[i] = gn_lit_nowhere(&l, z);
+            points->dark[i] = gn_dark_nowhere(&l, z);
             continue;
         }
         tent t = make_tent(&l, points->u[i], points->v[i]);
         z = gn_cut(z);
-        int a = z <= t.above[0], b = z <= t.above[1], c = z <= t.below[0], d = z <= t.below[1];
-        points->lit[i] = a & b & c & d ? WHOLE : a | b | c | d ? weigh(&t, a, b, c, d) : 0;
+        int a = z > t.above[0], b = z > t.above[1], c = z > t.below[0], d = z > t.below[1];
+        if ((a | b | c | d) == (a & b & c & d))
+            points->dark[i] = a ? WHOLE : 0;
+        else
+            gn_vote_is(points, i, weigh(&t, a, b, c, d), WHOLE);
     }
 }
 
-static uint32_t sample(const gn_lookup *l, const gn_points *points, int32_t i, const gn_receiver_plane *plane)
+static uint32_t sample(const gn_lookup *l, const gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
     tent t = make_tent(l, points->u[i], points->v[i]);
-    int64_t above = gn_wide_depth(&plane->plane, (int32_t)t.column, (int32_t)t.row), below = above + plane->plane.dy;
-    return weigh(&t, gn_cut(gn_saturate(above)) <= t.above[0],
-                 gn_cut(gn_saturate(above + plane->plane.dx)) <= t.above[1], gn_cut(gn_saturate(below)) <= t.below[0],
-                 gn_cut(gn_saturate(below + plane->plane.dx)) <= t.below[1]);
+    int64_t above = gn_wide_depth(plane, (int32_t)t.column, (int32_t)t.row), below = above + plane->dy;
+    return weigh(&t, gn_cut(gn_saturate(above)) > t.above[0], gn_cut(gn_saturate(above + plane->dx)) > t.above[1],
+                 gn_cut(gn_saturate(below)) > t.below[0], gn_cut(gn_saturate(below + plane->dx)) > t.below[1]);
 }
 
 const gn_reconstruction gn_bilinear = {gn_cascade_row, vote, sample, gn_colour_fractions, WHOLE, 4, 4};

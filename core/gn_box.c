@@ -10,8 +10,7 @@ typedef struct side {
 
 GN_INLINE side make_side(uint32_t u, uint32_t end, uint32_t bits, uint32_t radius)
 {
-    uint32_t texel = u >> bits;
-    texel = texel > end ? end : texel;
+    uint32_t texel = gn_texel(u, end, bits);
     side s = {0, end, 0, 0};
     if (texel >= radius)
         s.first = texel - radius;
@@ -24,14 +23,14 @@ GN_INLINE side make_side(uint32_t u, uint32_t end, uint32_t bits, uint32_t radiu
     return s;
 }
 
-/* The lit texels of a box by a plane, or, where that is 0, by one depth. */
-GN_INLINE uint32_t count_lit(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t z, const gn_receiver_plane *plane,
-                             uint32_t radius)
+/* The shadowed texels of a box by a plane, or, where that is 0, by one depth. */
+GN_INLINE uint32_t count_dark(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t z, const gn_wide_plane *plane,
+                              uint32_t radius)
 {
     side across = make_side(u, l->last_column, l->bits, radius), down = make_side(v, l->last_row, l->bits, radius);
     const gn_depth *line = l->map + down.first * l->stride;
-    int64_t start = plane ? gn_wide_depth(&plane->plane, (int32_t)across.first, (int32_t)down.first) : 0;
-    uint32_t lit = 0;
+    int64_t start = plane ? gn_wide_depth(plane, (int32_t)across.first, (int32_t)down.first) : 0;
+    uint32_t dark = 0;
     z = gn_cut(z);
     for (uint32_t row = down.first; row <= down.last; row++, line += l->stride) {
         const gn_depth *texel = line + across.first, *end = line + across.last;
@@ -40,17 +39,17 @@ GN_INLINE uint32_t count_lit(const gn_lookup *l, uint32_t u, uint32_t v, uint32_
         for (; texel <= end; texel++) {
             if (plane) {
                 z = gn_cut(gn_saturate(depth));
-                depth += plane->plane.dx;
+                depth += plane->dx;
             }
-            is = z <= *texel;
+            is = z > *texel;
             in_row += texel == line + across.first ? is * (1 + across.before) : is;
         }
         in_row += is * across.beyond;
-        lit += in_row * (1 + (row == down.first ? down.before : 0) + (row == down.last ? down.beyond : 0));
+        dark += in_row * (1 + (row == down.first ? down.before : 0) + (row == down.last ? down.beyond : 0));
         if (plane)
-            start += plane->plane.dy;
+            start += plane->dy;
     }
-    return lit;
+    return dark;
 }
 
 GN_INLINE void vote(const gn_lookup *lookup, gn_points *points, uint32_t radius)
@@ -58,8 +57,10 @@ GN_INLINE void vote(const gn_lookup *lookup, gn_points *points, uint32_t radius)
     const gn_lookup l = *lookup;
     for (int32_t i = 0; i < points->count; i++) {
         uint32_t z = points->z[i];
-        points->lit[i] = points->u[i] == GN_NOWHERE ? gn_lit_nowhere(&l, z)
-                                                    : count_lit(&l, points->u[i], points->v[i], z, 0, radius);
+        gn_vote_is(points, i,
+                   points->u[i] == GN_NOWHERE ? gn_dark_nowhere(&l, z)
+                                              : count_dark(&l, points->u[i], points->v[i], z, 0, radius),
+                   l.whole);
     }
 }
 
@@ -68,9 +69,9 @@ static void vote_any(const gn_lookup *lookup, gn_points *points)
     vote(lookup, points, lookup->whole == 9 ? 1 : lookup->whole == 25 ? 2 : 3);
 }
 
-static uint32_t sample(const gn_lookup *l, const gn_points *points, int32_t i, const gn_receiver_plane *plane)
+static uint32_t sample(const gn_lookup *l, const gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
-    return count_lit(l, points->u[i], points->v[i], 0, plane, l->whole == 9 ? 1 : l->whole == 25 ? 2 : 3);
+    return count_dark(l, points->u[i], points->v[i], 0, plane, l->whole == 9 ? 1 : l->whole == 25 ? 2 : 3);
 }
 
 const gn_reconstruction gn_box_3x3 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 9, 9, 9};

@@ -1,6 +1,5 @@
 /* The cascade of a row, in blocks: points, votes, virtual samples, what is written. See gn_cascade.h. */
 #include "gn_cascade.h"
-#include "gn_shade.h"
 
 static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction *how)
 {
@@ -13,24 +12,29 @@ static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction 
     return l;
 }
 
-/* floor((254 k + n / 2) / n). */
-static uint8_t fraction(uint32_t k, uint32_t n)
+/* Of the lit shares k: floor((254 k + n / 2) / n). */
+static uint8_t fraction(uint32_t dark, uint32_t n)
 {
-    return (uint8_t)(k == 0 ? 0 : k == n ? 254 : (254 * k + n / 2) / n);
+    return (uint8_t)(dark == 0 ? 254 : dark == n ? 0 : (254 * (n - dark) + n / 2) / n);
 }
 
-/* Shadowed: negative. */
-static void write_nearest(const gn_context *context, const gn_points *points, uint32_t *q)
+/* Shadowed: negative. Where the light is a spot, q holds how near it is. */
+static void write_nearest(const gn_points *points, uint32_t *q)
 {
-    uint32_t keep = context->light.kind == GN_SPOT ? 0xffffffffu : 0;
     for (int32_t i = 0; i < points->count; i++)
-        q[i] = points->lit[i] ? q[i] & keep : 0x80000000u;
+        q[i] |= points->dark[i];
+}
+
+static void write_open(const gn_points *points, uint32_t *q)
+{
+    for (int32_t n = 0; n < points->open_count; n++)
+        q[points->open[n]] |= points->dark[points->open[n]];
 }
 
 static void write_fractions(const gn_points *points, uint32_t whole, uint8_t *out)
 {
     for (int32_t i = 0; i < points->count; i++)
-        out[i] = fraction(points->lit[i], whole);
+        out[i] = fraction(points->dark[i], whole);
 }
 
 #if GN_STATISTICS
@@ -42,49 +46,82 @@ static void count_stages(const gn_context *context, gn_worker *worker, const gn_
     for (int32_t i = 0; i < points->count; i++) {
         if (points->triangle[i] == GN_NO_TRIANGLE || !gn_find_pair(context, worker, points->triangle[i])->faces_light)
             continue;
-        uint32_t stage = points->stage[i], voted = points->u[i] == GN_NOWHERE ? 0 : how->votes;
-        uint32_t resampled = stage == GN_RESAMPLED ? how->samples : 0;
-        s->pixels_outside += points->u[i] == GN_NOWHERE;
-        s->pixels_fractional += points->lit[i] > 0 && points->lit[i] < how->whole;
-        s->pixels_agreed += points->u[i] != GN_NOWHERE && stage == GN_AGREED;
-        s->pixels_virtual += stage == GN_RESAMPLED;
-        s->texels_read += voted + resampled;
-        s->virtual_samples += resampled;
+        int outside = points->u[i] == GN_NOWHERE, resampled = points->resampled[i];
+        int fractional = how->colour && points->dark[i] > 0 && points->dark[i] < how->whole;
+        uint32_t voted = !outside && (!context->settings.receiver || context->settings.receiver->votes);
+        s->pixels_outside += (uint32_t)outside;
+        s->pixels_agreed += (uint32_t)(!outside && !resampled && !fractional);
+        s->pixels_virtual += (uint32_t)resampled;
+        s->pixels_fractional += (uint32_t)fractional;
+        s->texels_read += voted * how->votes + (resampled ? how->samples : 0);
+        s->virtual_samples += resampled ? how->samples : 0;
     }
 }
 #endif
+
+static gn_vote_at_once *find_short_cut(const gn_context *context)
+{
+    const gn_receiver *receiver = context->settings.receiver;
+    const gn_shading *s = &context->shading;
+    if (!receiver || context->settings.reconstruction)
+        return 0;
+    if (context->light.kind == GN_SPOT)
+        return receiver->spotlit;
+    int needs_no_test = !context->camera_view.affine && s->trusted == GN_WELL_INSIDE && s->position_bits >= 8;
+    return needs_no_test ? receiver->sunlit : 0;
+}
+
+/* Points and votes one after the other. */
+static void vote(const gn_context *context, gn_worker *worker, const gn_reconstruction *how, const gn_lookup *lookup,
+                 gn_points *points, uint32_t *q)
+{
+    const gn_receiver *receiver = context->settings.receiver;
+    gn_find_points(context, points, q);
+    if (receiver && receiver->prepare)
+        receiver->prepare(context, worker, points);
+    if (!receiver || receiver->votes)
+        how->vote(lookup, points);
+}
 
 void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count)
 {
     const gn_receiver *receiver = context->settings.receiver;
     const gn_reconstruction *how = context->settings.reconstruction;
     how = how ? how : receiver->nearest;
+    gn_vote_at_once *at_once = find_short_cut(context);
+    int in_place = how->whole == GN_DARK && context->light.kind != GN_SPOT;
     gn_lookup lookup = make_lookup(context, how);
-    uint32_t *q = worker->q + from;
+    uint32_t *q = worker->q + from, dark[GN_BLOCK];
     gn_points points;
     if (!context->camera_view.affine)
         gn_row_of_w(q, count, context->shading.w_shift);
+    points.x = x;
+    points.y = y;
+    gn_start_points(context, &points);
     for (int32_t done = 0; done < count; done += GN_BLOCK, q += GN_BLOCK) {
         points.triangle = worker->triangle + from + done;
         points.x = x + done;
-        points.y = y;
         points.count = count - done < GN_BLOCK ? count - done : GN_BLOCK;
-        gn_find_points(context, &points, q);
-        if (receiver && receiver->prepare)
-            receiver->prepare(context, worker, &points);
-        if (!receiver || receiver->votes)
-            how->vote(&lookup, &points);
+        points.open_count = 0;
+        points.dark = in_place ? q : dark;
 #if GN_STATISTICS
         for (int32_t i = 0; i < points.count; i++)
-            points.stage[i] = GN_AGREED;
+            points.u[i] = points.resampled[i] = 0;
 #endif
+        if (at_once)
+            at_once(context, &lookup, &points, q);
+        else
+            vote(context, worker, how, &lookup, &points, q);
         if (receiver && receiver->resample)
             receiver->resample(context, worker, &lookup, &points, how->sample);
-        write_nearest(context, &points, q);
-        if (how->colour)
-            write_fractions(&points, how->whole, worker->fraction + done);
 #if GN_STATISTICS
         count_stages(context, worker, &points, how);
 #endif
+        if (how->colour)
+            write_fractions(&points, how->whole, worker->fraction + done);
+        else if (at_once && !in_place)
+            write_open(&points, q);
+        else if (!in_place)
+            write_nearest(&points, q);
     }
 }

@@ -6,19 +6,19 @@
  * exactly on the stored depth does not shadow itself. Wang & Molnar's figure 10 has < for virtual samples; then every
  * open plane would.
  *
- * Memory: 16 bytes a point of the block on the stack; 32 bytes an entry of the cache of planes; a byte a pixel of a
+ * Memory: 13 bytes a point of the block on the stack; 40 bytes an entry of the cache of planes; a byte a pixel of a
  * region's row where there are fractions. */
 #ifndef GN_CASCADE_H
 #define GN_CASCADE_H
 
-#include "gn_context.h"
+#include "gn_shade.h"
 
-/* Points of a block. Trades stack against the cost of starting a block; never changes a pixel. */
+/* Points of a block, at most 256. Trades stack against the cost of starting a block; never changes a pixel. */
 #ifndef GN_BLOCK
-#define GN_BLOCK (GN_VECTOR ? 128 : 32)
+#define GN_BLOCK 128
 #endif
 
-#define GN_NOWHERE 0xffffffffu /* u of a point that the map does not hold: z 0 lit, else shadowed */
+#define GN_NOWHERE 0x80000000u /* u of a point that the map does not hold: z 0 lit, else, the farthest, shadowed */
 
 /* The map as points see it, kept in registers. */
 typedef struct gn_lookup {
@@ -29,25 +29,37 @@ typedef struct gn_lookup {
     uint32_t whole; /* shares of the reconstruction */
 } gn_lookup;
 
-/* What a point is lit by that lies nowhere on the map. */
-GN_INLINE uint32_t gn_lit_nowhere(const gn_lookup *lookup, uint32_t z)
+/* The shadowed shares of a point that lies nowhere on the map. */
+GN_INLINE uint32_t gn_dark_nowhere(const gn_lookup *lookup, uint32_t z)
 {
-    return z ? 0 : lookup->whole;
+    return z ? lookup->whole : 0;
 }
 
-/* The error of a point's depth, of 2^32, where rounding alone makes it (docs/number-formats.md). */
+/* The texel that holds a place u or v. A pixel without a surface has any place. */
+GN_INLINE uint32_t gn_texel(uint32_t place, uint32_t last, uint32_t bits)
+{
+    uint32_t texel = (place + ((uint32_t)1 << (bits - 1))) >> bits;
+    return texel > last ? last : texel;
+}
+
+/* The error of a point's depth, of 2^32 (docs/number-formats.md): by so much nearer it votes where virtual samples may
+ * follow, so that a level plane, where all depths are one, is not shadowed by its own rounding. */
 #define GN_POINT_ERROR 0x10000u
 
-typedef enum gn_stage { GN_OUTSIDE, GN_AGREED, GN_RESAMPLED } gn_stage;
+/* The one share of a single texel: what a shadowed pixel's q becomes. */
+#define GN_DARK 0x80000000u
 
 typedef struct gn_points {
-    uint32_t u[GN_BLOCK], v[GN_BLOCK]; /* in texels; < 2^31, or GN_NOWHERE */
+    uint32_t u[GN_BLOCK], v[GN_BLOCK]; /* in texels, from the centre of the first one, modulo 2^32; or GN_NOWHERE */
     uint32_t z[GN_BLOCK];              /* as the light pass steps it, 32 bits */
-    uint32_t lit[GN_BLOCK];            /* shares that are lit, 0 to whole */
+    uint32_t *dark;                    /* shares that are shadowed, 0 to whole */
     const uint32_t *triangle;          /* that the pixels see */
     int32_t x, y, count;               /* pixels (x + i, y) */
+    gn_runner row[3];                  /* the view's expressions at pixel (x, y); directional: u, v as above */
+    int32_t open_count;                /* points on which the texels disagree, and their numbers */
+    uint8_t open[GN_BLOCK];
 #if GN_STATISTICS
-    uint8_t stage[GN_BLOCK]; /* gn_stage that decided */
+    uint8_t resampled[GN_BLOCK]; /* 1: decided by virtual samples */
 #endif
 } gn_points;
 
@@ -55,31 +67,56 @@ typedef struct gn_points {
  * inserted there, bit for bit. */
 typedef struct gn_receiver_plane {
     gn_wide_plane plane;
+    int64_t slack; /* how much nearer its neighbour in one flat wall may be stored, units of z */
     uint32_t triangle;
     uint8_t exists;      /* 0: the light sees the triangle edge-on, or not at all */
     uint8_t faces_light; /* camera and light are on the same side: else it is shadowed whatever the map says */
 } gn_receiver_plane;
 
+/* Take the view's expressions to the next block. */
+GN_INLINE void gn_end_block(gn_points *points)
+{
+    for (int k = 0; k < 3; k++) {
+        points->row[k].a += (uint32_t)points->count * points->row[k].a_dx;
+        points->row[k].b += (uint32_t)points->count * points->row[k].b_dx;
+    }
+}
+
+/* Half a texel of a spot light's u and v. */
+#define GN_SPOT_HALF ((uint32_t)1 << 17)
+
+/* What a vote found of point i. */
+GN_INLINE void gn_vote_is(gn_points *points, int32_t i, uint32_t dark, uint32_t whole)
+{
+    points->dark[i] = dark;
+    if (dark != 0 && dark != whole)
+        points->open[points->open_count++] = (uint8_t)i;
+}
+
 typedef void gn_row_shader(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count);
+typedef void gn_vote_at_once(const gn_context *context, const gn_lookup *lookup, gn_points *points, uint32_t *q);
 typedef void gn_vote(const gn_lookup *lookup, gn_points *points);
-typedef uint32_t gn_sample(const gn_lookup *lookup, const gn_points *points, int32_t i, const gn_receiver_plane *plane);
+typedef uint32_t gn_sample(const gn_lookup *lookup, const gn_points *points, int32_t i, const gn_wide_plane *plane);
 
 struct gn_receiver {
     gn_row_shader *shade; /* gn_cascade_row */
-    /* before the votes, and after them; either may be 0 */
+    /* before the votes, and after them; any may be 0 */
     void (*prepare)(const gn_context *context, gn_worker *worker, gn_points *points);
     void (*resample)(const gn_context *context, gn_worker *worker, const gn_lookup *lookup, gn_points *points,
                      gn_sample *sample);
+    /* Points and votes of the nearest texel in one, where that is faster, else 0: for a perspective camera and a
+     * directional light whose box needs no test; for spot lights. q: 0 lit (spot: near / distance), GN_DARK. */
+    gn_vote_at_once *sunlit, *spotlit;
     const gn_reconstruction *nearest; /* what stands for no reconstruction */
     uint8_t votes;                    /* 0: resample decides every point */
 };
 
 struct gn_reconstruction {
     gn_row_shader *shade;     /* gn_cascade_row */
-    gn_vote *vote;            /* sets lit of all points, by their own depth; more than 0 and less than whole: open */
-    gn_sample *sample;        /* the lit shares of a point, by its plane */
+    gn_vote *vote;            /* sets dark of all points by their own depth, and says which are open */
+    gn_sample *sample;        /* the shadowed shares of a point, by a plane */
     gn_colour_shader *colour; /* of fractions; 0: there are none */
-    uint32_t whole;           /* shares, at most 2^16 */
+    uint32_t whole;           /* shares: at most 2^16, or GN_DARK */
     uint8_t votes, samples;   /* depths that vote and sample compare */
 };
 
@@ -87,7 +124,9 @@ struct gn_reconstruction {
  * reconstruction; worker->fraction: the lit parts of 254. */
 void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count);
 
-/* gn_points.c: the points of a block of pixels, from W in q. Spot: q becomes near / distance, Q2.30. */
+/* gn_points.c: begin a row at points->x, y; the points of its next block of pixels, from W in q. Spot: q becomes near /
+ * distance, Q2.30. Leaves points->row at the end of the block. */
+void gn_start_points(const gn_context *context, gn_points *points);
 void gn_find_points(const gn_context *context, gn_points *points, uint32_t *q);
 uint32_t gn_point_bits(const gn_context *context);
 

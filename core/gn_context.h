@@ -39,8 +39,8 @@ typedef struct gn_shading {
     uint8_t w_shift;         /* W = 2^(61 - w_shift) / Q */
     uint8_t position_bits;   /* fraction bits of u and v in texels */
     uint8_t depth_bits;      /* fraction bits of depth in units of 1/65536 */
-    uint8_t trusted;         /* every point of the scene lies inside the light's box: no test needed */
-    uint32_t near_w, far_w;  /* spot: in the unit of coordinate[2] */
+    uint8_t trusted; /* gn_inside: whether every point of the scene lies inside the light's box: no test needed */
+    uint32_t near_w, far_w; /* spot: in the unit of coordinate[2] */
 } gn_shading;
 
 typedef enum gn_phase {
@@ -66,7 +66,7 @@ typedef struct gn_worker {
     uint32_t *q;      /* camera pass: Q, later what the shadow test leaves */
     uint32_t *triangle;
     gn_colour_pair *colours;
-    struct gn_receiver_plane *planes; /* 0 without a receiver */
+    struct gn_receiver_plane *planes; /* camera pass; 0 without a receiver */
     uint8_t *fraction;                /* camera pass: lit parts of 254 of a row; 0 without a reconstruction */
     gn_statistics statistics;
 } gn_worker;
@@ -86,11 +86,11 @@ struct gn_context {
 
     gn_light light;
     gn_view light_view;
-    uint32_t bias; /* in units of a 32-bit depth */
-    uint8_t light_trusted;
-    uint8_t phase;        /* gn_phase: whose turn it is to use the shared part */
-    uint8_t *progress;    /* gn_progress of each light region, written by whoever renders it */
-    uint32_t tan_squared; /* spot: of half the opening, 19 fraction bits */
+    uint32_t bias;         /* in units of a 32-bit depth */
+    uint8_t light_trusted; /* gn_inside */
+    uint8_t phase;         /* gn_phase: whose turn it is to use the shared part */
+    uint8_t *progress;     /* gn_progress of each light region, written by whoever renders it */
+    uint32_t tan_squared;  /* spot: of half the opening, 19 fraction bits */
 
     gn_camera camera;
     gn_view camera_view;
@@ -133,8 +133,14 @@ void gn_cross(int64_t n[3], const int32_t a[3], const int32_t b[3]);
 /* Sign of n . v, exactly: |n| <= 2^61, |v| <= 2^30. */
 int gn_dot_sign(const int64_t n[3], const int32_t v[3]);
 
+/* Where the vertices of a scene lie: all inside the screen; and with half a pixel and more than a point's error of
+ * depth to spare, so that the four pixels about any of their points exist. */
+typedef enum gn_inside { GN_NOT_INSIDE, GN_INSIDE, GN_WELL_INSIDE } gn_inside;
+#define GN_SPARE 160              /* 1/256 pixel */
+#define GN_SPARE_DEPTH (1u << 17) /* of 2^31 */
+
 /* Transform all vertices of the scene for a view; sets the objects' states. *largest_w: of all vertices in front;
- * *inside: whether all vertices project inside the screen. */
+ * *inside: a gn_inside. */
 gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *largest_w, int *inside);
 
 /* The places of a triangle's corners, for clipping. */

@@ -272,7 +272,7 @@ static GN_NOINLINE void walk_any(const target *t, const gn_rows *rows, const gn_
 
 static GN_NOINLINE void walk_first(const target *t, const gn_rows *rows, const gn_window *window)
 {
-    if (GN_UNLIKELY(rows->cut | t->steep))
+    if (GN_UNLIKELY(rows->cut))
         walk_any(t, rows, window);
     else
         gn_walk(rows, window, 0, span_first, t);
@@ -299,33 +299,43 @@ static insertion choose_insertion(const gn_context *context, const gn_mesh *mesh
     return context->settings.surface == GN_SECOND && !mesh->closed ? TWICE : TWO;
 }
 
-/* What spans need of a plane. */
-static void prepare_plane(target *t)
+static void set_lanes(target *t)
 {
-    if (t->how == RISING)
-        t->rise = t->steep ? gn_rise(t->steep_plane.dx, t->steep_plane.dy)
-                           : gn_rise((int32_t)t->plane.dx, (int32_t)t->plane.dy);
 #if GN_VECTOR_16
     static const gn_u32x16 lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     t->lanes = lane * t->plane.dx;
+#else
+    (void)t;
 #endif
 }
 
-static void set_plane(target *t, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
+/* One clockwise triangle whose plane is set. */
+GN_INLINE void insert(target *t, const gn_rows *rows, const gn_window *window)
 {
-    t->steep = gn_make_depth_plane(&t->plane, v0, v1, v2, area);
-    if (GN_UNLIKELY(t->steep))
-        gn_make_steep_plane(&t->steep_plane, v0, v1, v2, area);
-    prepare_plane(t);
+    if (t->how == FIRST) {
+        walk_first(t, rows, window);
+    } else {
+        if (t->how == RISING)
+            t->rise = gn_rise((int32_t)t->plane.dx, (int32_t)t->plane.dy);
+        walk_any(t, rows, window);
+    }
+    GN_TALLY(t->tally->triangles++;)
 }
 
-/* One clockwise triangle whose plane is set. */
-GN_INLINE void insert(const target *t, const gn_rows *rows, const gn_window *window)
+/* One whose plane is too steep for 32 bits. */
+static GN_NOINLINE void insert_steep(target *t, const gn_mesh *mesh, const gn_vertex *vertices, uint32_t triangle,
+                                     const gn_rows *rows, const gn_window *window)
 {
-    if (t->how == FIRST && (!GN_VECTOR_16 || !t->steep))
-        walk_first(t, rows, window);
-    else
-        walk_any(t, rows, window);
+    uint32_t index[3];
+    gn_triangle_indices(mesh, triangle, index);
+    const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
+    int64_t area = gn_area(v0, v1, v2);
+    (void)gn_make_steep_plane(&t->steep_plane, v0, area > 0 ? v1 : v2, area > 0 ? v2 : v1, area);
+    t->rise = gn_rise(t->steep_plane.dx, t->steep_plane.dy);
+    t->steep = 1;
+    set_lanes(t);
+    walk_any(t, rows, window);
+    t->steep = 0;
     GN_TALLY(t->tally->triangles++;)
 }
 
@@ -344,8 +354,7 @@ static GN_NOINLINE void insert_clipped(const gn_context *context, target *t, con
         return;
     const gn_vertex *v = polygon.v;
     gn_make_clipped_plane(&t->plane, &polygon);
-    t->steep = 0;
-    prepare_plane(t);
+    set_lanes(t);
     for (int32_t i = 1; i + 1 < polygon.count; i++) {
         int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
         if (area == 0 || (area > 0) != (polygon.area > 0))
@@ -385,7 +394,11 @@ static void insert_mesh(const gn_context *context, target *t, uint32_t object_in
         gn_rows rows;
         if (!gn_find_rows(&rows, v0, v1, v2, window))
             continue;
-        set_plane(t, v0, v1, v2, area);
+        if (GN_UNLIKELY(gn_make_depth_plane(&t->plane, v0, v1, v2, area))) {
+            insert_steep(t, mesh, vertices, i, &rows, window);
+            continue;
+        }
+        set_lanes(t);
         insert(t, &rows, window);
     }
 }
@@ -480,7 +493,8 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
         status = gn_transform_scene(context, &context->light_view, &largest_w, &inside);
     if (status != GN_OK)
         return status;
-    context->light_trusted = (uint8_t)(inside && light->kind == GN_DIRECTIONAL && !has_models(context->scene));
+    int known = light->kind == GN_DIRECTIONAL && !has_models(context->scene);
+    context->light_trusted = (uint8_t)(known ? inside : GN_NOT_INSIDE);
     context->bias = gn_make_bias(context);
     context->tan_squared = (uint32_t)(gn_multiply_u(light->tan_half, light->tan_half) >> 29);
     for (uint32_t i = 0; i < context->plan.light_regions; i++)
@@ -509,6 +523,7 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     t.second = w->second;
     t.second_offset = (int32_t)(first_row * stride);
     t.stride = (int32_t)stride;
+    t.steep = 0;
     clear(context->map + (size_t)first_row * stride, (size_t)rows * stride);
     if (t.second)
         clear(t.second, (size_t)rows * stride);

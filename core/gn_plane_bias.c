@@ -28,16 +28,14 @@ static void move_nearer(const gn_context *context, gn_worker *worker, gn_points 
 static void vote_nearest(const gn_lookup *l, gn_points *points)
 {
     for (int32_t i = 0; i < points->count; i++) {
-        uint32_t column = points->u[i] >> l->bits, row = points->v[i] >> l->bits;
-        if (points->u[i] == GN_NOWHERE) {
-            points->lit[i] = gn_lit_nowhere(l, points->z[i]);
-            continue;
-        }
-        column = column > l->last_column ? l->last_column : column;
-        row = row > l->last_row ? l->last_row : row;
-        points->lit[i] = gn_cut(points->z[i]) <= l->map[row * l->stride + column];
+        uint32_t column = gn_texel(points->u[i], l->last_column, l->bits);
+        uint32_t row = gn_texel(points->v[i], l->last_row, l->bits);
+        if (points->u[i] == GN_NOWHERE)
+            points->dark[i] = gn_dark_nowhere(l, points->z[i]);
+        else
+            points->dark[i] = gn_cut(points->z[i]) <= l->map[row * l->stride + column] ? 0 : GN_DARK;
     }
 }
 
-static const gn_reconstruction nearest = {gn_cascade_row, vote_nearest, 0, 0, 1, 1, 0};
-const gn_receiver gn_plane_bias = {gn_cascade_row, move_nearer, 0, &nearest, 1};
+static const gn_reconstruction nearest = {gn_cascade_row, vote_nearest, 0, 0, GN_DARK, 1, 0};
+const gn_receiver gn_plane_bias = {gn_cascade_row, move_nearer, 0, 0, 0, &nearest, 1};

@@ -119,8 +119,8 @@ static int64_t steep_gradient(int64_t n, const slopes *s, int *sheer)
     return n < 0 ? -(int64_t)q : (int64_t)q;
 }
 
-void gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                         int64_t area)
+int gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                        int64_t area)
 {
     slopes s = make_slopes(v0, v1, v2, area);
     int sheer = 0;
@@ -129,10 +129,11 @@ void gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_ver
     if (sheer) {
         plane->base = 2 * (int64_t)farthest_depth(v0, v1, v2);
         plane->dx = plane->dy = 0;
-        return;
+        return 1;
     }
     int64_t shift = (128 - v0->x) * plane->dx + (128 - v0->y) * plane->dy;
     plane->base = 2 * (int64_t)v0->depth + gn_floor_shift_64(shift, 8);
+    return 0;
 }
 
 /* floor(2^32 |n| / A) with n's sign: Q a 1/256 pixel, 32 fraction bits; *steep where that reaches 2^54. */

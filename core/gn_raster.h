@@ -79,9 +79,9 @@ int gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_ver
                         int64_t area);
 
 /* The same for steep ones, up to the whole range in 1/256 texel, which is what vertices are snapped to; beyond, z is
- * constant, the farthest vertex's. */
-void gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                         int64_t area);
+ * constant, the farthest vertex's, and the result is 1. */
+int gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                        int64_t area);
 
 /* The same for Q: gradients with 32 fraction bits, relative error 2^-29; too steep: constant, the farthest Q. */
 void gn_make_q_plane(gn_q_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area);

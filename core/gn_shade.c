@@ -150,10 +150,8 @@ static void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int32_
         uint32_t row = (uint32_t)(gn_multiply_u(top, height << 2) >> 32);
         column = column >= width ? width - 1 : column;
         row = row >= height ? height - 1 : row;
-        uint32_t z =
-            GN_DEPTH_GUARD + (uint32_t)(gn_multiply_u(light->depth_scale, (1u << 30) - nearness) >> light->depth_shift);
-        z = z > 0x7fffffffu ? 0x7fffffffu : z; /* short ranges: the reciprocal's error exceeds the guard */
-        if ((gn_depth)((2 * z) >> (32 - GN_DEPTH_BITS)) > context->map[row * context->map_stride + column])
+        uint32_t z = gn_spot_depth(light, nearness);
+        if ((gn_depth)(z >> (32 - GN_DEPTH_BITS)) > context->map[row * context->map_stride + column])
             continue;
         q[i] = gn_over_distance(nearness, left, top, context->tan_squared);
     }

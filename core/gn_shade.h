@@ -51,4 +51,13 @@ GN_INLINE uint32_t gn_divide_place(const gn_shading *s, uint32_t *left, uint32_t
     return nearness > 1u << 30 ? 1u << 30 : nearness;
 }
 
+/* Depth as the light pass steps it, 32 bits, from near / w in 2^-30. In short ranges the reciprocal's error exceeds the
+ * guard. */
+GN_INLINE uint32_t gn_spot_depth(const gn_view *light, uint32_t nearness)
+{
+    uint32_t z =
+        GN_DEPTH_GUARD + (uint32_t)(gn_multiply_u(light->depth_scale, (1u << 30) - nearness) >> light->depth_shift);
+    return 2 * (z > 0x7fffffffu ? 0x7fffffffu : z);
+}
+
 #endif

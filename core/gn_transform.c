@@ -107,8 +107,10 @@ static int mirrors(const gn_model *model)
 gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *largest_w, int *inside)
 {
     int32_t right = 2 * view->half_width, bottom = 2 * view->half_height;
+    uint32_t spare_width = right > 2 * GN_SPARE ? (uint32_t)(right - 2 * GN_SPARE) : 0;
+    uint32_t spare_height = bottom > 2 * GN_SPARE ? (uint32_t)(bottom - 2 * GN_SPARE) : 0;
     *largest_w = 0;
-    *inside = 1;
+    *inside = GN_WELL_INSIDE;
     for (uint32_t i = 0; i < context->scene->object_count; i++) {
         const gn_object *object = &context->scene->objects[i];
         gn_object_state *state = &context->objects[i];
@@ -130,8 +132,11 @@ gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *
                 *largest_w = (int32_t)place.c[2];
             if (vertex->depth == 0)
                 state->clips = 1;
-            if (vertex->depth == 0 || vertex->x < 0 || vertex->y < 0 || vertex->x >= right || vertex->y >= bottom)
-                *inside = 0;
+            if (GN_LIKELY((uint32_t)(vertex->x - GN_SPARE) < spare_width &&
+                          (uint32_t)(vertex->y - GN_SPARE) < spare_height && vertex->depth >= GN_SPARE_DEPTH))
+                continue;
+            int in = vertex->depth && vertex->x >= 0 && vertex->y >= 0 && vertex->x < right && vertex->y < bottom;
+            *inside = in && *inside ? GN_INSIDE : GN_NOT_INSIDE;
         }
     }
     return GN_OK;

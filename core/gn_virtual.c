@@ -9,93 +9,200 @@
  * shadowed by its own rounding. */
 #include "gn_cascade.h"
 
-enum { OPEN = 1, WHOLE = 2 }; /* shares of one texel, so that there is a number for not knowing yet */
+enum { OPEN = 1 };
 
-/* Whether four texels agree on a depth. */
-GN_INLINE uint32_t agree(const gn_depth *above, const gn_depth *below, uint32_t depth)
+/* Whether four texels agree on a depth that was cut: lit, shadowed or open. */
+GN_INLINE uint32_t agree(const gn_depth *above, const gn_depth *below, uint32_t z)
 {
-    uint32_t z = gn_cut(depth);
     if (z <= above[0])
-        return z <= above[1] && z <= below[0] && z <= below[1] ? WHOLE : OPEN;
-    z = gn_cut(depth < GN_POINT_ERROR ? 0 : depth - GN_POINT_ERROR);
-    return z > above[0] && z > above[1] && z > below[0] && z > below[1] ? 0 : OPEN;
+        return z <= above[1] && z <= below[0] && z <= below[1] ? 0 : OPEN;
+    return z > above[1] && z > below[0] && z > below[1] ? GN_DARK : OPEN;
 }
 
-/* At the border the four texels nearest to the point vote. */
-static GN_NOINLINE uint32_t vote_at_border(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t z)
+static void move_nearer(const gn_context *context, gn_worker *worker, gn_points *points)
 {
-    if (u == GN_NOWHERE)
-        return gn_lit_nowhere(l, z);
-    uint32_t half = (uint32_t)1 << (l->bits - 1), column = u < half ? 0 : (u - half) >> l->bits,
-             row = v < half ? 0 : (v - half) >> l->bits;
-    column = column < l->last_column ? column : l->last_column - 1;
-    row = row < l->last_row ? row : l->last_row - 1;
-    const gn_depth *texel = l->map + row * l->stride + column;
-    return agree(texel, texel + l->stride, z);
+    (void)context, (void)worker;
+    for (int32_t i = 0; i < points->count; i++)
+        points->z[i] = points->z[i] > GN_POINT_ERROR ? points->z[i] - GN_POINT_ERROR : 0;
+}
+
+/* Whether the four texels at a place agree on a depth that was cut. A place in the border's outer half texel has the
+ * four that are nearest; they lie to one side of it and cannot tell that it is shadowed: a convex surface may be behind
+ * all. */
+GN_INLINE uint32_t look(const gn_lookup *l, uint32_t column, uint32_t row, uint32_t z)
+{
+    const gn_depth *above = l->map + row * l->stride + column;
+    if (GN_LIKELY(column < l->last_column && row < l->last_row))
+        return agree(above, above + l->stride, z);
+    column = column < l->last_column ? column : column >= GN_MAX_SIZE ? 0 : l->last_column - 1;
+    row = row < l->last_row ? row : row >= GN_MAX_SIZE ? 0 : l->last_row - 1;
+    above = l->map + row * l->stride + column;
+    return agree(above, above + l->stride, z) ? OPEN : 0;
 }
 
 static void vote_around(const gn_lookup *lookup, gn_points *points)
 {
     const gn_lookup l = *lookup;
-    uint32_t half = (uint32_t)1 << (l.bits - 1);
     for (int32_t i = 0; i < points->count; i++) {
-        uint32_t u = points->u[i], v = points->v[i], z = points->z[i];
-        uint32_t column = (u - half) >> l.bits, row = (v - half) >> l.bits;
-        if (GN_UNLIKELY(column >= l.last_column || row >= l.last_row)) {
-            points->lit[i] = vote_at_border(lookup, u, v, z);
-            continue;
+        uint32_t u = points->u[i], z = points->z[i], vote;
+        if (GN_UNLIKELY(u == GN_NOWHERE)) {
+            vote = gn_dark_nowhere(lookup, z);
+        } else {
+            vote = look(&l, u >> l.bits, points->v[i] >> l.bits, gn_cut(z));
         }
-        const gn_depth *texel = l.map + row * l.stride + column;
-        points->lit[i] = agree(texel, texel + l.stride, z);
+        gn_vote_is(points, i, vote, GN_DARK);
     }
 }
 
-static uint32_t sample_nearest(const gn_lookup *l, const gn_points *points, int32_t i, const gn_receiver_plane *plane)
+#if !GN_VECTOR
+/* A depth with its fraction bits, in units of 1/65536, as the light pass cuts it. */
+GN_INLINE uint32_t cut_raw(uint32_t z, uint32_t bits)
 {
-    uint32_t column = points->u[i] >> l->bits, row = points->v[i] >> l->bits;
-    column = column > l->last_column ? l->last_column : column;
-    row = row > l->last_row ? l->last_row : row;
-    return gn_cut(gn_saturate(gn_wide_depth(&plane->plane, (int32_t)column, (int32_t)row))) <=
-                   l->map[row * l->stride + column]
-               ? WHOLE
-               : 0;
+    return GN_DEPTH_BITS == 16 ? z >> bits : z << (16 - bits);
 }
 
-static const gn_reconstruction nearest = {gn_cascade_row, vote_around, sample_nearest, 0, WHOLE, 4, 1};
-
-static void resample_point(const gn_context *context, gn_worker *worker, const gn_lookup *lookup, gn_points *points,
-                           gn_sample *sample, int32_t i)
+/* The place of a pixel whose W was w. */
+static GN_NOINLINE void open_point(const gn_context *context, gn_points *points, uint32_t i, uint32_t w, uint32_t bits)
 {
-    points->lit[i] = 0;
+    const gn_shading *s = &context->shading;
+    uint32_t place[3];
+    for (int k = 0; k < 3; k++) {
+        gn_runner r = gn_start_row(&s->coordinate[k], points->x + (int32_t)i, points->y);
+        place[k] = gn_step(&r, w);
+    }
+    points->u[i] = place[0] - ((uint32_t)1 << (bits - 1));
+    points->v[i] = place[1] - ((uint32_t)1 << (bits - 1));
+    points->z[i] = (place[2] << (16u - s->depth_bits)) - GN_POINT_ERROR;
+}
+
+/* W of a pixel without a surface is 2^31 but for the reciprocal's error, every other is less by 1/64 (gn_shading.c). */
+#define NOTHING 0x7f000000u
+
+/* The number of the first of the four texels about each pixel, in points->z. */
+static GN_NOINLINE void find_footprints(const gn_lookup *lookup, gn_points *points, const uint32_t *q)
+{
+    gn_runner u = points->row[0], v = points->row[1];
+    const uint32_t bits = lookup->bits, stride = lookup->stride;
+    uint32_t *out = points->z, *end = out + points->count;
+    do {
+        uint32_t w = *q++, column = (u.a + gn_w_product(w, u.b)) >> bits;
+        uint32_t texel = ((v.a + gn_w_product(w, v.b)) >> bits) * stride + column;
+        u.b += u.b_dx;
+        v.b += v.b_dx;
+        if (GN_UNLIKELY(w >= NOTHING))
+            texel = 0;
+        *out++ = texel;
+    } while (out != end);
+    points->row[0].b = u.b;
+    points->row[1].b = v.b;
+}
+
+/* A perspective camera, and a directional light whose box holds every point well inside: the common case. */
+static void vote_sunlit(const gn_context *context, const gn_lookup *lookup, gn_points *points, uint32_t *q)
+{
+    const uint32_t stride = lookup->stride, depth_bits = context->shading.depth_bits;
+    const uint32_t z_a = points->row[2].a - (GN_POINT_ERROR >> (16 - depth_bits)), z_dx = points->row[2].b_dx;
+    const gn_depth *map = lookup->map;
+    find_footprints(lookup, points, q);
+    const uint32_t *place = points->z;
+    uint32_t z_b = points->row[2].b, *at = q, *end = q + points->count;
+    do {
+        uint32_t depth = cut_raw(z_a + gn_w_product(*at++, z_b), depth_bits);
+        const gn_depth *above = map + *place++, *below = above + stride;
+        z_b += z_dx;
+        uint32_t vote = agree(above, below, depth);
+        if (GN_UNLIKELY(vote == OPEN))
+            points->open[points->open_count++] = (uint8_t)(at - q - 1);
+        else
+            at[-1] = vote;
+    } while (at != end);
+    points->row[2].b = z_b;
+    for (int32_t n = 0; n < points->open_count; n++)
+        open_point(context, points, points->open[n], q[points->open[n]], lookup->bits);
+}
+#else
+#define vote_sunlit 0
+#endif
+
+/* As gn_shade.c does it, with four texels for one. */
+static void vote_spotlit(const gn_context *context, const gn_lookup *lookup, gn_points *points, uint32_t *q)
+{
+    const gn_shading *s = &context->shading;
+    const gn_view *light = &context->light_view;
+    gn_runner u = points->row[0], v = points->row[1], d = points->row[2];
+    const uint32_t width = lookup->last_column + 1, height = lookup->last_row + 1;
+    for (int32_t i = 0; i < points->count; i++) {
+        uint32_t w = q[i], left = gn_step(&u, w), top = gn_step(&v, w), distance = gn_step(&d, w);
+        q[i] = GN_DARK;
+        if (distance - s->near_w > s->far_w - s->near_w || left >= distance || top >= distance) {
+            points->u[i] = GN_NOWHERE;
+            continue; /* outside the frustum: unlit */
+        }
+        uint32_t nearness = gn_divide_place(s, &left, &top, distance);
+        uint32_t column = (uint32_t)((gn_multiply_u(left, width << 2) - 0x80000000u) >> 32);
+        uint32_t row = (uint32_t)((gn_multiply_u(top, height << 2) - 0x80000000u) >> 32);
+        uint32_t z = gn_spot_depth(light, nearness);
+        z = z > GN_POINT_ERROR ? z - GN_POINT_ERROR : 0;
+        uint32_t vote = look(lookup, column, row, gn_cut(z));
+        if (vote == GN_DARK)
+            continue;
+        q[i] = gn_over_distance(nearness, left, top, context->tan_squared);
+        if (vote == OPEN) {
+            points->u[i] = (uint32_t)(gn_multiply_u(left, width) >> 12) - GN_SPOT_HALF;
+            points->v[i] = (uint32_t)(gn_multiply_u(top, height) >> 12) - GN_SPOT_HALF;
+            points->z[i] = z;
+            points->open[points->open_count++] = (uint8_t)i;
+        }
+    }
+    gn_end_block(points);
+}
+
+static uint32_t sample_nearest(const gn_lookup *l, const gn_points *points, int32_t i, const gn_wide_plane *plane)
+{
+    uint32_t column = gn_texel(points->u[i], l->last_column, l->bits);
+    uint32_t row = gn_texel(points->v[i], l->last_row, l->bits);
+    uint32_t z = gn_cut(gn_saturate(gn_wide_depth(plane, (int32_t)column, (int32_t)row)));
+    return z <= l->map[row * l->stride + column] ? 0 : GN_DARK;
+}
+
+static const gn_reconstruction nearest = {gn_cascade_row, vote_around, sample_nearest, 0, GN_DARK, 4, 1};
+
+/* The shadowed shares of a point, by virtual samples. Where there is no plane, its own depth is level. */
+static uint32_t resample(const gn_context *context, gn_worker *worker, const gn_lookup *lookup, gn_points *points,
+                         gn_sample *sample, int32_t i)
+{
     if (points->triangle[i] == GN_NO_TRIANGLE)
-        return;
+        return 0;
     const gn_receiver_plane *plane = gn_find_plane(context, worker, points->triangle[i]);
     if (!plane->faces_light)
-        return;
-    gn_receiver_plane level = {{points->z[i], 0, 0}, 0, 1, 1};
-    points->lit[i] = sample(lookup, points, i, plane->exists ? plane : &level);
+        return lookup->whole;
+    gn_wide_plane nearer = {points->z[i], 0, 0};
+    if (plane->exists) {
+        nearer = plane->plane;
+        nearer.base -= plane->slack;
+    }
 #if GN_STATISTICS
-    points->stage[i] = GN_RESAMPLED;
+    points->resampled[i] = 1;
 #endif
+    return sample(lookup, points, i, &nearer);
 }
 
 static void resample_open(const gn_context *context, gn_worker *worker, const gn_lookup *lookup, gn_points *points,
                           gn_sample *sample)
 {
-    for (int32_t i = 0; i < points->count; i++)
-        if (points->lit[i] != 0 && points->lit[i] != lookup->whole)
-            resample_point(context, worker, lookup, points, sample, i);
+    for (int32_t n = 0; n < points->open_count; n++) {
+        int32_t i = points->open[n];
+        points->dark[i] = resample(context, worker, lookup, points, sample, i);
+    }
 }
 
 static void resample_all(const gn_context *context, gn_worker *worker, const gn_lookup *lookup, gn_points *points,
                          gn_sample *sample)
 {
     for (int32_t i = 0; i < points->count; i++)
-        if (points->u[i] == GN_NOWHERE)
-            points->lit[i] = gn_lit_nowhere(lookup, points->z[i]);
-        else
-            resample_point(context, worker, lookup, points, sample, i);
+        points->dark[i] = points->u[i] == GN_NOWHERE ? gn_dark_nowhere(lookup, points->z[i])
+                                                     : resample(context, worker, lookup, points, sample, i);
 }
 
-const gn_receiver gn_virtual = {gn_cascade_row, 0, resample_open, &nearest, 1};
-const gn_receiver gn_virtual_always = {gn_cascade_row, 0, resample_all, &nearest, 0};
+const gn_receiver gn_virtual = {gn_cascade_row, move_nearer, resample_open, vote_sunlit, vote_spotlit, &nearest, 1};
+const gn_receiver gn_virtual_always = {gn_cascade_row, 0, resample_all, 0, 0, &nearest, 0};

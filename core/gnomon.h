@@ -38,7 +38,7 @@ extern "C" {
 #endif
 
 #define GN_VERSION "0.1.0"
-#define GN_BITS_VERSION 2
+#define GN_BITS_VERSION 3
 
 /* Bits of a stored depth, 16 or 32: trades map memory against depth resolution. 16-bit layers are the upper half of
  * the 32-bit ones, bit for bit (but for GN_MIXED, which marks the lowest bit). The library and its users must be

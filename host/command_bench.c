@@ -1,4 +1,5 @@
 /* gnomon bench: how long the passes take. */
+#include "choices.h"
 #include "commands.h"
 #include "file.h"
 #include "frame.h"
@@ -6,6 +7,7 @@
 #include "memory.h"
 #include "progress.h"
 #include "render_options.h"
+#include "settings_report.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -75,14 +77,15 @@ static int measure(frame *f, const packed_scene *packed, times *t, problem *why)
     return 0;
 }
 
-static void print(const frame *f, const times *t)
+static void print(const frame *f, int scale, const times *t)
 {
     const gn_settings *s = &f->settings;
     printf("image %d x %d, %u triangles, shadow %s", s->width, s->height, (unsigned)f->plan.triangles,
-           render_shadow_name(s));
-    if (s->shadow == GN_SHADOW_MAP)
-        printf(" %d x %d, virtual surface %s, layers %s, cull %s", s->map_width, s->map_height,
-               render_surface_name(s->surface), render_layers_name(f->plan.layers), render_cull_name(f->plan.cull));
+           choices_shadow.all[s->shadow].word);
+    if (s->shadow == GN_SHADOW_MAP) {
+        printf(" %d x %d, ", s->map_width, s->map_height);
+        settings_report_text(stdout, s, &f->plan, scale);
+    }
     printf(", region %d x %d, workers %d, runs %d\n", f->plan.region_width, f->plan.region_height, s->workers,
            t->count);
     printf("pass      median ms   least ms\n");
@@ -99,20 +102,7 @@ static void write_pass(json *w, const char *name, const double *sorted, int coun
     json_close(w);
 }
 
-static void write_shadow(json *w, const frame *f)
-{
-    const gn_settings *s = &f->settings;
-    json_string(w, "shadow", render_shadow_name(s));
-    if (s->shadow != GN_SHADOW_MAP)
-        return;
-    json_integer(w, "map_width", s->map_width);
-    json_integer(w, "map_height", s->map_height);
-    json_string(w, "virtual_surface", render_surface_name(s->surface));
-    json_string(w, "layers", render_layers_name(f->plan.layers));
-    json_string(w, "cull", render_cull_name(f->plan.cull));
-}
-
-static int write_json(const char *path, const char *scene, const frame *f, const times *t, problem *why)
+static int write_json(const char *path, const char *scene, const frame *f, int scale, const times *t, problem *why)
 {
     file_output output;
     if (file_output_open(&output, path, why))
@@ -123,7 +113,7 @@ static int write_json(const char *path, const char *scene, const frame *f, const
     json_integer(&w, "width", f->settings.width);
     json_integer(&w, "height", f->settings.height);
     json_integer(&w, "triangles", f->plan.triangles);
-    write_shadow(&w, f);
+    settings_report_json(&w, &f->settings, &f->plan, scale);
     json_integer(&w, "region_width", f->plan.region_width);
     json_integer(&w, "region_height", f->plan.region_height);
     json_integer(&w, "workers", f->settings.workers);
@@ -159,8 +149,8 @@ static int bench(packed_scene *packed, frame *f, times *t, const char *scene, co
     t->frame = memory_take((size_t)runs, sizeof *t->frame);
     if (frame_open(f, &packed->scene, &settings, 0, why) || measure(f, packed, t, why))
         return -1;
-    print(f, t);
-    return values[JSON] ? write_json(values[JSON], scene, f, t, why) : 0;
+    print(f, packed->scale, t);
+    return values[JSON] ? write_json(values[JSON], scene, f, packed->scale, t, why) : 0;
 }
 
 int command_bench(int argc, char **argv)

@@ -5,7 +5,6 @@
 #include "image.h"
 #include "json.h"
 #include "options.h"
-#include "text.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -175,11 +174,10 @@ static void print(const comparison *c)
 
 /* ---- input ------------------------------------------------------------------------------------------------------ */
 
-static int read_number(const char *name, const char *value, double most, double *number, problem *why)
+/* What is not given stays as it is. */
+static int read_limit(const char *name, const char *value, double most, double *number, problem *why)
 {
-    if (value && (word_number((word){value, strlen(value)}, number) || *number < 0 || *number > most))
-        return problem_of_usage(why, "%s %s; expected a number from 0 to %g", name, value, most);
-    return 0;
+    return value ? option_decimal(name, value, most, number, why) : 0;
 }
 
 typedef struct request {
@@ -200,9 +198,9 @@ static int read_request(request *r, const command_line *line, const char *const 
                    .edge_band = COMPARISON_EDGE_BAND,
                    .max_coverage = 1,
                    .allow_vacuous = values[ALLOW_VACUOUS] != 0};
-    if (read_number("--edge-band", values[EDGE_BAND], WIDEST_EDGE_BAND, &r->edge_band, why) ||
-        read_number("--max-error", values[MAX_ERROR], 100, &r->max_error, why) ||
-        read_number("--max-coverage", values[MAX_COVERAGE], 100, &r->max_coverage, why))
+    if (read_limit("--edge-band", values[EDGE_BAND], WIDEST_EDGE_BAND, &r->edge_band, why) ||
+        read_limit("--max-error", values[MAX_ERROR], 100, &r->max_error, why) ||
+        read_limit("--max-coverage", values[MAX_COVERAGE], 100, &r->max_coverage, why))
         return -1;
     const char *const inputs[] = {r->mask, r->truth, r->near}, *const outputs[] = {r->difference, r->json};
     if ((r->difference && image_can_write(r->difference, 3, IMAGE_U8, why)) ||

@@ -52,8 +52,9 @@ static int pack(packed_scene *packed, const char *scene, const char *const value
         return problem_in(why, path, "has another extension; expected .gno or .h");
     if (packed_read(packed, scene, values[VERBOSE] != 0, why))
         return -1;
-    int chosen = values[RENDER_METHOD] || values[RENDER_SURFACE] || values[RENDER_CULL] || values[RENDER_LAYERS] ||
-                 values[RENDER_BIAS];
+    int chosen = 0;
+    for (int i = RENDER_METHOD; i <= RENDER_RECONSTRUCT; i++)
+        chosen |= values[i] && i != RENDER_PARAMETERISE;
     if (render_options_read(&packed->settings, packed, values, why))
         return -1;
     packed->has_method |= chosen;

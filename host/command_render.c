@@ -5,6 +5,7 @@
 #include "image.h"
 #include "json.h"
 #include "render_options.h"
+#include "settings_report.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -33,14 +34,14 @@ static const option table[OPTION_COUNT] = {
     RENDER_OPTIONS,
     {0, 0, "What is written (.ppm, .pgm, .pfm; with OpenImageIO also .png, .exr and others):"},
     {"-o", "FILE", "the image, 8 bits a channel"},
-    {"--mask", "FILE", "8-bit grey: 0 shadowed, 254 lit, 255 no surface"},
+    {"--mask", "FILE", "8-bit grey: 0 shadowed to 254 lit, 255 no surface"},
     {"--depth", "FILE", "nearest depths as seen by the light, 16-bit grey; .pfm, .exr: 0 near to 1 far"},
     {"--second-depth", "FILE", "second nearest depths, where the method keeps two layers"},
     {"--map-image", "FILE", "the depths that pixels are compared with, made of the layers"},
     {"--stats", "FILE.json", "sizes, memory, counts and times"},
     {"--hash", 0, "print a hash for each stage: layers, map, mask, colour"},
     WORK_OPTIONS,
-    {"--verbose", 0, "say on standard error what was read and planned"},
+    {"--verbose", 0, "say on standard error what was read, planned and tested"},
     {"--help", 0, "this text"},
 };
 
@@ -110,9 +111,29 @@ static void say_what_was_read(const job *j)
         fprintf(stderr, "\nshadow volumes, %" PRIu32 " edges; %zu bytes\n", plan->edges, plan->bytes);
         return;
     }
-    fprintf(stderr, "\nvirtual surface %s, layers %s, cull %s; %zu bytes, of them %zu for the map\n",
-            render_surface_name(j->settings.surface), render_layers_name(plan->layers), render_cull_name(plan->cull),
-            plan->bytes, plan->map_bytes);
+    fputs("\n", stderr);
+    settings_report_text(stderr, &j->settings, plan, p->scale);
+    fprintf(stderr, "; %zu bytes, of them %zu for the map\n", plan->bytes, plan->map_bytes);
+}
+
+/* Does the test of a pixel run in the stages that the counts tell apart? */
+static int has_stages(const gn_settings *s)
+{
+    return s->shadow == GN_SHADOW_MAP && (s->receiver || s->reconstruction);
+}
+
+static void say_what_was_tested(const frame *f)
+{
+    gn_statistics s;
+    gn_get_statistics(f->context, &s);
+    fprintf(stderr, "%" PRIu64 " pixels tested", s.pixels_tested);
+    if (has_stages(&f->settings))
+        fprintf(stderr,
+                ": %" PRIu64 " outside of the light, %" PRIu64 " decided by the point's depth, %" PRIu64
+                " by virtual samples; %" PRIu64 " partly lit; %" PRIu64 " texels read, %" PRIu64 " virtual samples",
+                s.pixels_outside, s.pixels_agreed, s.pixels_virtual, s.pixels_fractional, s.texels_read,
+                s.virtual_samples);
+    fputs("\n", stderr);
 }
 
 /* ---- outputs --------------------------------------------------------------------------------------------------- */
@@ -148,6 +169,14 @@ static void write_statistics(json *j, const frame *f)
     json_integer(j, "camera_fragments", (int64_t)s.camera_fragments);
     json_integer(j, "pixels_shaded", (int64_t)s.pixels_shaded);
     json_integer(j, "pixels_tested", (int64_t)s.pixels_tested);
+    if (has_stages(&f->settings)) {
+        json_integer(j, "pixels_outside", (int64_t)s.pixels_outside);
+        json_integer(j, "pixels_agreed", (int64_t)s.pixels_agreed);
+        json_integer(j, "pixels_virtual", (int64_t)s.pixels_virtual);
+        json_integer(j, "pixels_fractional", (int64_t)s.pixels_fractional);
+        json_integer(j, "texels_read", (int64_t)s.texels_read);
+        json_integer(j, "virtual_samples", (int64_t)s.virtual_samples);
+    }
     if (f->settings.shadow == GN_SHADOW_VOLUMES) {
         json_integer(j, "silhouette_edges", (int64_t)s.silhouette_edges);
         json_integer(j, "volume_faces", (int64_t)s.volume_faces);
@@ -157,18 +186,13 @@ static void write_statistics(json *j, const frame *f)
     json_close(j);
 }
 
-static void write_plan(json *j, const gn_settings *s, const gn_plan *plan)
+static void write_plan(json *j, const gn_settings *s, const gn_plan *plan, int scale)
 {
     json_open(j, "settings");
     json_integer(j, "width", s->width);
     json_integer(j, "height", s->height);
-    json_integer(j, "map_width", s->map_width);
-    json_integer(j, "map_height", s->map_height);
     json_integer(j, "depth_bits", GN_DEPTH_BITS);
-    json_string(j, "shadow", render_shadow_name(s));
-    json_string(j, "virtual_surface", render_surface_name(s->surface));
-    json_string(j, "layers", render_layers_name(plan->layers));
-    json_string(j, "cull", render_cull_name(plan->cull));
+    settings_report_json(j, s, plan, scale);
     json_integer(j, "workers", s->workers);
     json_integer(j, "region_width", plan->region_width);
     json_integer(j, "region_height", plan->region_height);
@@ -207,7 +231,7 @@ static int write_stats_file(job *j)
     json_integer(&w, "scale_exponent", j->packed.scale);
     if (j->packed.largest_rounding >= 0)
         json_number(&w, "largest_rounding_world_units", j->packed.largest_rounding);
-    write_plan(&w, &j->settings, &j->frame.plan);
+    write_plan(&w, &j->settings, &j->frame.plan, j->packed.scale);
     write_statistics(&w, &j->frame);
     if (j->values[OUTPUT_HASH])
         write_hashes(&w, &j->frame);
@@ -271,6 +295,8 @@ static int render(job *j)
     if (frame_light_pass(&j->frame, &j->packed.light, &j->why) ||
         frame_camera_pass(&j->frame, &j->packed.camera, &j->why))
         return -1;
+    if (j->values[VERBOSE])
+        say_what_was_tested(&j->frame);
     return write_outputs(j);
 }
 

@@ -1,7 +1,7 @@
 #include "frame.h"
 
 #include "memory.h"
-#include "render_options.h"
+#include "status.h"
 
 #include <pthread.h>
 #include <stdlib.h>
@@ -137,7 +137,7 @@ static int refused(gn_status status, const char *pass, problem *why)
 {
     if (status == GN_OK)
         return 0;
-    return problem_of_usage(why, "the %s pass failed: %s (status %d)", pass, render_status_text(status), (int)status);
+    return problem_of_usage(why, "the %s pass failed: %s (status %d)", pass, status_text(status), (int)status);
 }
 
 int frame_light_pass(frame *f, const gn_light *light, problem *why)
@@ -194,11 +194,11 @@ int frame_open(frame *f, const gn_scene *scene, const gn_settings *settings, int
         f->settings.region_height = (uint16_t)((f->settings.height + f->settings.workers - 1) / f->settings.workers);
     gn_status status = gn_make_plan(&f->plan, scene, &f->settings);
     if (status != GN_OK)
-        return problem_of_usage(why, "the core refuses the scene: %s", render_status_text(status));
+        return problem_of_usage(why, "the core refuses the scene: %s", status_text(status));
     f->memory = memory_take(f->plan.bytes / 8 + 1, 8); /* malloc's alignment is GN_ALIGNMENT or more */
     status = gn_init(&f->context, scene, &f->settings, f->memory, f->plan.bytes);
     if (status != GN_OK)
-        return problem_of_usage(why, "the core cannot start: %s", render_status_text(status));
+        return problem_of_usage(why, "the core cannot start: %s", status_text(status));
     allocate_image(f);
     f->keep_layers = keep_layers;
     f->layer_count = settings->shadow == GN_SHADOW_VOLUMES ? 0 : f->plan.layers == GN_LAYERS_TWO ? 2 : 1;

@@ -82,6 +82,13 @@ int option_number(const char *name, const char *value, long least, long most, lo
     return 0;
 }
 
+int option_decimal(const char *name, const char *value, double most, double *number, problem *why)
+{
+    if (word_number((word){value, strlen(value)}, number) || *number < 0 || *number > most)
+        return problem_of_usage(why, "%s %s; expected a number from 0 to %g", name, value, most);
+    return 0;
+}
+
 int option_size(const char *name, const char *value, int one_number, long most, long size[2], problem *why)
 {
     const char *x = strchr(value, 'x');

@@ -1,6 +1,7 @@
 #include "pack.h"
 
 #include "adjacency.h"
+#include "choices.h"
 #include "file.h"
 #include "memory.h"
 
@@ -8,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VERSION = 2, BODY = 16, MESHES = 208, LARGEST_PLANE = 1 << 28, LARGEST_HALF_HEIGHT = 1 << 26, UNIT = 1 << 30 };
+enum { VERSION = 3, BODY = 16, MESHES = 216, LARGEST_PLANE = 1 << 28, LARGEST_HALF_HEIGHT = 1 << 26, UNIT = 1 << 30 };
+enum { LARGEST_SLOPE = 64 << 16 };
 
 static uint32_t crc32_of(const uint8_t *bytes, size_t size)
 {
@@ -41,10 +43,24 @@ static void put_numbers(writer *w, const int32_t *numbers, size_t count)
         put(w, (uint32_t)numbers[i], 4);
 }
 
+/* All zero where the scene has no method. */
+static void put_method(writer *w, const gn_settings *s)
+{
+    put(w, s->cull, 1);
+    put(w, s->layers, 1);
+    put(w, s->surface, 1);
+    put(w, s->bias.unit, 1);
+    put(w, s->shadow, 1);
+    put(w, (uint32_t)choices_number(&choices_receiver, s->receiver), 1);
+    put(w, s->bias.value, 4);
+    put(w, (uint32_t)s->slope, 4);
+    put(w, (uint32_t)choices_number(&choices_reconstruction, s->reconstruction), 4);
+}
+
 static void put_settings(writer *w, const packed_scene *packed)
 {
+    static const gn_settings none;
     const gn_settings *s = &packed->settings;
-    int method = packed->has_method;
     put(w, s->width, 2);
     put(w, s->height, 2);
     put(w, s->map_width, 2);
@@ -54,14 +70,8 @@ static void put_settings(writer *w, const packed_scene *packed)
     put(w, packed->scene.background.r, 1);
     put(w, packed->scene.background.g, 1);
     put(w, packed->scene.background.b, 1);
-    put(w, (uint32_t)method, 1);
-    put(w, method ? s->cull : 0, 1);
-    put(w, method ? s->layers : 0, 1);
-    put(w, method ? s->surface : 0, 1);
-    put(w, method ? s->bias.unit : 0, 1);
-    put(w, method ? s->shadow : 0, 1);
-    put(w, 0, 1);
-    put(w, method ? s->bias.value : 0, 4);
+    put(w, (uint32_t)packed->has_method, 1);
+    put_method(w, packed->has_method ? s : &none);
 }
 
 static void put_camera(writer *w, const gn_camera *c)
@@ -246,20 +256,38 @@ static int get_size(reader *r, const char *what, uint16_t *size)
     return 0;
 }
 
+/* The core takes no larger bias in world units. */
+static int get_bias(reader *r, int has_method, gn_bias *bias)
+{
+    uint32_t most = !has_method ? 0 : bias->unit == GN_BIAS_WORLD ? LARGEST_PLANE : UINT32_MAX;
+    return get_ranged(r, "bias", 4, 0, most, &bias->value);
+}
+
+/* A byte that is the number of a choice; the first of them where there is no method. */
+static int get_choice(reader *r, const char *what, const choices *of, int has_method, uint8_t *number)
+{
+    return get_byte(r, what, has_method ? (uint32_t)of->count - 1 : 0, number);
+}
+
 static int get_method(reader *r, packed_scene *packed)
 {
     gn_settings *s = &packed->settings;
-    uint8_t has_method;
+    uint8_t has_method, receiver, reconstruction;
     if (get_byte(r, "method flag", 1, &has_method))
         return -1;
     packed->has_method = has_method;
-    if (get_byte(r, "cull", has_method ? GN_CULL_FRONT : 0, &s->cull) ||
-        get_byte(r, "layers", has_method ? GN_LAYERS_TWO : 0, &s->layers) ||
-        get_byte(r, "surface", has_method ? GN_MIXED : 0, &s->surface) ||
-        get_byte(r, "unit of the bias", has_method ? GN_BIAS_RANGE : 0, &s->bias.unit) ||
-        get_byte(r, "shadow", has_method ? GN_SHADOW_VOLUMES : 0, &s->shadow) || get_zeros(r, 1))
+    if (get_choice(r, "cull", &choices_cull, has_method, &s->cull) ||
+        get_choice(r, "layers", &choices_layers, has_method, &s->layers) ||
+        get_choice(r, "surface", &choices_surface, has_method, &s->surface) ||
+        get_choice(r, "unit of the bias", &choices_bias_unit, has_method, &s->bias.unit) ||
+        get_choice(r, "shadow", &choices_shadow, has_method, &s->shadow) ||
+        get_choice(r, "receiver", &choices_receiver, has_method, &receiver) || get_bias(r, has_method, &s->bias) ||
+        get_signed_ranged(r, "slope", 0, has_method ? LARGEST_SLOPE : 0, &s->slope) ||
+        get_choice(r, "reconstruction", &choices_reconstruction, has_method, &reconstruction))
         return -1;
-    return get_ranged(r, "bias", 4, 0, has_method ? UINT32_MAX : 0, &s->bias.value);
+    s->receiver = choices_receiver.all[receiver].object;
+    s->reconstruction = choices_reconstruction.all[reconstruction].object;
+    return get_zeros(r, 3);
 }
 
 static int get_settings(reader *r, packed_scene *packed)

@@ -1,6 +1,7 @@
 /* The packed scene as C arrays: see pack.h. The header includes gnomon.h and nothing else; it compiles as C99. */
 #include "pack.h"
 
+#include "choices.h"
 #include "file.h"
 
 #include <ctype.h>
@@ -161,20 +162,31 @@ static void write_light(const source *s, const gn_light *l)
     fputs("};\n\n", s->stream);
 }
 
+/* Naming one links it; the default has no name. */
+static void write_object(const source *s, const char *field, const choices *of, const void *object)
+{
+    if (object)
+        fprintf(s->stream, "    .%s = %s,\n", field, of->all[choices_number(of, object)].identifier);
+}
+
 static void write_settings(const source *s, const gn_settings *settings)
 {
-    static const char *const culls[] = {"GN_CULL_AUTO", "GN_CULL_NONE", "GN_CULL_BACK", "GN_CULL_FRONT"};
-    static const char *const layers[] = {"GN_LAYERS_AUTO", "GN_LAYERS_FIRST", "GN_LAYERS_TWO"};
-    static const char *const surfaces[] = {"GN_CONSTANT", "GN_MIDPOINT", "GN_DUAL", "GN_SECOND", "GN_MIXED"};
-    static const char *const units[] = {"GN_BIAS_WORLD", "GN_BIAS_TEXELS", "GN_BIAS_RANGE"};
     fprintf(s->stream,
             "static const gn_settings %s_settings = {\n    .width = %d,\n    .height = %d,\n    .map_width = %d,\n"
             "    .map_height = %d,\n    .cull = %s,\n    .layers = %s,\n    .surface = %s,\n    .format = GN_RGB888,\n"
-            "    .workers = 1,\n%s    .bias = {%s, %" PRIu32 "u},\n};\n\n",
+            "    .workers = 1,\n",
             s->name, settings->width, settings->height, settings->map_width, settings->map_height,
-            culls[settings->cull], layers[settings->layers], surfaces[settings->surface],
-            settings->shadow == GN_SHADOW_VOLUMES ? "    .shadow = GN_SHADOW_VOLUMES,\n" : "",
-            units[settings->bias.unit], settings->bias.value);
+            choices_cull.all[settings->cull].identifier, choices_layers.all[settings->layers].identifier,
+            choices_surface.all[settings->surface].identifier);
+    if (settings->shadow == GN_SHADOW_VOLUMES)
+        fputs("    .shadow = GN_SHADOW_VOLUMES,\n", s->stream);
+    fprintf(s->stream, "    .bias = {%s, %" PRIu32 "u},\n", choices_bias_unit.all[settings->bias.unit].identifier,
+            settings->bias.value);
+    if (settings->slope)
+        fprintf(s->stream, "    .slope = %" PRId32 ",\n", settings->slope);
+    write_object(s, "receiver", &choices_receiver, settings->receiver);
+    write_object(s, "reconstruction", &choices_reconstruction, settings->reconstruction);
+    fputs("};\n\n", s->stream);
 }
 
 int pack_write_header(const packed_scene *packed, const char *path, const char *from, problem *why)

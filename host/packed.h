@@ -14,8 +14,8 @@ typedef struct packed_scene {
     uint32_t mesh_count;
     gn_camera camera;
     gn_light light;
-    long point_light; /* line of the scene file with a `light point`, else 0: light has position and depths alone */
-    gn_settings settings; /* image and map size; method and bias where has_method */
+    long point_light;     /* line of the scene file with a `light point`, else 0: light has position and depths alone */
+    gn_settings settings; /* image and map size; how shadows are made where has_method */
     int has_method;
     int scale;               /* one world unit of the scene file is 2^scale integers */
     double largest_rounding; /* of a vertex, in world units of the scene file; below 0: not known (.gno) */

@@ -1,71 +1,41 @@
 #include "render_options.h"
 
+#include "choices.h"
+#include "method.h"
 #include "quantise.h"
+#include "status.h"
 
 #include <string.h>
 
-static const char *const surfaces[] = {"constant", "midpoint", "dual", "second", "mixed"};
-static const char *const culls[] = {"auto", "none", "back", "front"};
-static const char *const layer_names[] = {"auto", "first", "two"};
-
-enum { METHOD_AUTO = 5, METHOD_VOLUMES = 6, METHODS_BUILT = 7, METHODS = 10 };
-
-/* In the order of gn_surface, then auto and volumes, then those of docs/design.md that are not built yet. */
-static const char *const methods[METHODS] = {"constant", "midpoint", "dual",  "second-depth", "mixed",
-                                             "auto",     "volumes",  "slope", "adaptive",     "silhouette"};
-
-/* The only choice that exists, and what is planned beside it. */
-static int read_only_choice(const char *name, const char *value, const char *built, const char *const planned[],
-                            problem *why)
+/* The place of the word among those of an option. What is only planned is told from what nobody knows: by its start,
+ * as parameterisations combine. -1 and the problem if it is none. */
+static int read_word(const char *name, const char *value, const char *const words[], int count,
+                     const char *const planned[], problem *why)
 {
-    if (!value || strcmp(value, built) == 0)
-        return 0;
-    for (; *planned; planned++)
+    int place = option_choice(name, value, words, count, why);
+    for (; place < 0 && planned && *planned; planned++)
         if (strncmp(value, *planned, strlen(*planned)) == 0)
-            return problem_of_usage(why, "%s %s is not built yet; expected %s", name, value, built);
-    return problem_of_usage(why, "%s %s; expected %s", name, value, built);
+            return problem_of_usage(why, "%s %s is not built yet; expected one that --help names", name, value);
+    return place;
 }
 
-static int read_fixed_choices(const char *const values[], problem *why)
+/* Change *number to that of the value's choice, if there is a value. 0, or -1 and the problem. */
+static int read_choice(const char *name, const char *value, const choices *of, const char *const planned[], int *number,
+                       problem *why)
 {
-    static const char *const parameterisations[] = {"dv", "msf", "rectilinear", "nonorthogonal", 0};
-    static const char *const receivers[] = {"plane-bias", "virtual", 0};
-    static const char *const reconstructions[] = {"bilinear", "jitter4x4", "pcf", "silhouette", 0};
-    return read_only_choice("--parameterise", values[RENDER_PARAMETERISE], "uniform", parameterisations, why) ||
-                   read_only_choice("--receiver", values[RENDER_RECEIVER], "point", receivers, why) ||
-                   read_only_choice("--reconstruct", values[RENDER_RECONSTRUCT], "nearest", reconstructions, why)
-               ? -1
-               : 0;
+    const char *words[CHOICES_MOST];
+    for (int i = 0; i < of->count; i++)
+        words[i] = of->all[i].word;
+    if (value)
+        *number = read_word(name, value, words, of->count, planned, why);
+    return *number < 0 ? -1 : 0;
 }
 
-static int all_meshes_are_closed(const packed_scene *packed)
+static int read_parameterisation(const char *value, problem *why)
 {
-    for (uint32_t i = 0; i < packed->scene.object_count; i++)
-        if (!packed->objects[i].mesh->closed)
-            return 0;
-    return 1;
-}
-
-/* A method leaves culling and layers to the plan, which picks the cheapest that give its surface. Shadow volumes read
- * no setting of a map: fixed ones, so that a scene is packed to the same bytes whatever it had before. */
-static void use_method(gn_settings *settings, const packed_scene *packed, int method)
-{
-    settings->shadow = method == METHOD_VOLUMES ? GN_SHADOW_VOLUMES : GN_SHADOW_MAP;
-    settings->cull = GN_CULL_AUTO;
-    settings->layers = GN_LAYERS_AUTO;
-    if (method == METHOD_VOLUMES) {
-        settings->bias = (gn_bias){GN_BIAS_WORLD, 0};
-        settings->surface = GN_CONSTANT;
-        return;
-    }
-    settings->bias = (gn_bias){GN_BIAS_TEXELS, 2 << 16};
-    settings->surface = (uint8_t)method;
-    if (method == METHOD_AUTO) {
-        /* Mixed bounds its bias by half the way to the next surface, so it can afford one that also serves grazing
-         * light. */
-        settings->surface = all_meshes_are_closed(packed) ? GN_SECOND : GN_MIXED;
-        settings->bias.value = 8 << 16;
-    }
+    static const char *const built[] = {"uniform"};
+    static const char *const planned[] = {"dv", "msf", "rectilinear", "nonorthogonal", 0};
+    return value && read_word("--parameterise", value, built, 1, planned, why) < 0 ? -1 : 0;
 }
 
 static int refuse_for_volumes(const char *name, problem *why)
@@ -73,54 +43,82 @@ static int refuse_for_volumes(const char *name, problem *why)
     return problem_of_usage(why, "%s has no meaning for shadow volumes; expected a method with a shadow map", name);
 }
 
+/* A virtual surface by its own name stands for the method of that name. */
 static int read_method(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why)
 {
-    int method = METHOD_AUTO, surface = -1;
-    if (values[RENDER_METHOD]) {
-        method = option_choice("--method", values[RENDER_METHOD], methods, METHODS, why);
-        if (method >= METHODS_BUILT)
-            return problem_of_usage(why,
-                                    "--method %s is not built yet; expected constant, midpoint, dual, second-depth, "
-                                    "mixed, auto or volumes",
-                                    values[RENDER_METHOD]);
-        if (method < 0)
-            return -1;
-    }
+    static const char *const planned[] = {"silhouette", 0};
+    int method = METHOD_AUTO, surface = GN_CONSTANT;
+    if (values[RENDER_METHOD])
+        method = read_word("--method", values[RENDER_METHOD], method_words, METHOD_COUNT, planned, why);
+    if (method < 0)
+        return -1;
     if (values[RENDER_SURFACE]) {
         if (!values[RENDER_METHOD] && settings->shadow == GN_SHADOW_VOLUMES)
             return refuse_for_volumes("--virtual-surface", why);
-        surface = option_choice("--virtual-surface", values[RENDER_SURFACE], surfaces, 5, why);
-        if (strcmp(values[RENDER_SURFACE], "slope") == 0)
-            return problem_of_usage(why, "--virtual-surface slope is not built yet; expected one of the others");
-        if (surface < 0)
+        if (read_choice("--virtual-surface", values[RENDER_SURFACE], &choices_surface, 0, &surface, why))
             return -1;
-        if (values[RENDER_METHOD] && surface != method)
+        if (values[RENDER_METHOD] && surface != method_surface(method))
             return problem_of_usage(why, "--virtual-surface %s contradicts --method %s; expected one of the two",
                                     values[RENDER_SURFACE], values[RENDER_METHOD]);
-        method = surface;
+        if (!values[RENDER_METHOD])
+            method = surface;
     }
     if (values[RENDER_METHOD] || values[RENDER_SURFACE] || !packed->has_method)
-        use_method(settings, packed, method);
+        method_use(settings, packed, method);
     return 0;
 }
 
-static int read_parts(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why)
+static int read_light_pass(gn_settings *settings, const char *const values[], problem *why)
 {
     int cull = settings->cull, layers = settings->layers;
-    if (values[RENDER_CULL])
-        cull = option_choice("--cull", values[RENDER_CULL], culls, 4, why);
-    if (cull >= 0 && values[RENDER_LAYERS])
-        layers = option_choice("--layers", values[RENDER_LAYERS], layer_names, 3, why);
-    if (cull < 0 || layers < 0)
+    if (read_choice("--cull", values[RENDER_CULL], &choices_cull, 0, &cull, why) ||
+        read_choice("--layers", values[RENDER_LAYERS], &choices_layers, 0, &layers, why))
         return -1;
     settings->cull = (uint8_t)cull;
     settings->layers = (uint8_t)layers;
+    return 0;
+}
+
+/* The factor of a receiver's plane is 1 where none is known yet: that of a virtual surface serves both. */
+static void use_receiver(gn_settings *settings, const gn_receiver *receiver)
+{
+    int known = choices_use_slope(settings);
+    settings->receiver = receiver;
+    if (!choices_use_slope(settings))
+        settings->slope = 0;
+    else if (!known)
+        settings->slope = 1 << 16;
+}
+
+static int read_camera_pass(gn_settings *settings, const char *const values[], problem *why)
+{
+    static const char *const planned[] = {"silhouette", 0};
+    int receiver = choices_number(&choices_receiver, settings->receiver);
+    int reconstruction = choices_number(&choices_reconstruction, settings->reconstruction);
+    if (read_choice("--receiver", values[RENDER_RECEIVER], &choices_receiver, 0, &receiver, why) ||
+        read_choice("--reconstruct", values[RENDER_RECONSTRUCT], &choices_reconstruction, planned, &reconstruction,
+                    why))
+        return -1;
+    use_receiver(settings, choices_receiver.all[receiver].object);
+    settings->reconstruction = choices_reconstruction.all[reconstruction].object;
+    return 0;
+}
+
+static int read_amounts(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why)
+{
+    double slope;
+    if (values[RENDER_SLOPE]) {
+        if (!choices_use_slope(settings))
+            return problem_of_usage(why, "--slope has no meaning here; expected the virtual surface 'slope' or the "
+                                         "receiver 'plane-bias'");
+        if (option_decimal("--slope", values[RENDER_SLOPE], 64, &slope, why))
+            return -1;
+        settings->slope = (gn_q16_16)(slope * 65536 + 0.5);
+    }
     if (!values[RENDER_BIAS])
         return 0;
-    if (settings->surface == GN_MIDPOINT || settings->surface == GN_SECOND)
-        return problem_of_usage(why,
-                                "--bias has no meaning for the virtual surface '%s'; expected constant, dual or mixed",
-                                render_surface_name(settings->surface));
+    if (settings->surface == GN_MIDPOINT)
+        return problem_of_usage(why, "--bias has no meaning for the virtual surface 'midpoint'; expected another one");
     return quantise_bias(&settings->bias, values[RENDER_BIAS], packed->scale, why);
 }
 
@@ -151,6 +149,7 @@ static int check_volumes(const char *const values[], problem *why)
     } of_maps[] = {{RENDER_CULL, "--cull"},
                    {RENDER_LAYERS, "--layers"},
                    {RENDER_BIAS, "--bias"},
+                   {RENDER_SLOPE, "--slope"},
                    {RENDER_MAP, "--map"},
                    {RENDER_RECEIVER, "--receiver"},
                    {RENDER_RECONSTRUCT, "--reconstruct"},
@@ -161,31 +160,46 @@ static int check_volumes(const char *const values[], problem *why)
     return 0;
 }
 
+static int refuse_small_map(const gn_settings *s, problem *why)
+{
+    return problem_of_usage(
+        why,
+        "--receiver %s with --reconstruct %s, but the map is %d x %d; expected 2 x 2 texels or more, or point "
+        "and nearest",
+        choices_receiver.all[choices_number(&choices_receiver, s->receiver)].word,
+        choices_reconstruction.all[choices_number(&choices_reconstruction, s->reconstruction)].word, s->map_width,
+        s->map_height);
+}
+
 /* The same rules as gn_make_plan, in words. */
 static int check_combination(const gn_settings *s, const packed_scene *packed, problem *why)
 {
     gn_plan plan;
     gn_status status = gn_make_plan(&plan, &packed->scene, s);
+    if (status == GN_UNSUPPORTED && (s->receiver || s->reconstruction) && (s->map_width < 2 || s->map_height < 2))
+        return refuse_small_map(s, why);
     if (status == GN_UNSUPPORTED)
         return problem_of_usage(
             why, "the virtual surface '%s' makes no sense with --layers %s and --cull %s; expected %s",
-            render_surface_name(s->surface), render_layers_name(s->layers), render_cull_name(s->cull),
-            s->surface == GN_CONSTANT ? "one layer (first)"
-            : s->surface == GN_SECOND ? "two layers, or the first one with front faces culled"
-            : s->surface == GN_MIXED  ? "two layers without culling"
-                                      : "two layers, and no culling of front faces");
+            choices_surface.all[s->surface].word, choices_layers.all[s->layers].word, choices_cull.all[s->cull].word,
+            s->surface == GN_CONSTANT || s->surface == GN_SLOPE ? "one layer (first)"
+            : s->surface == GN_SECOND                           ? "two layers, or the first one with front faces culled"
+            : s->surface == GN_MIXED                            ? "two layers without culling"
+                                                                : "two layers, and no culling of front faces");
     if (status != GN_OK)
-        return problem_of_usage(why, "the core refuses the scene: %s", render_status_text(status));
+        return problem_of_usage(why, "the core refuses the scene: %s", status_text(status));
     return 0;
 }
 
 int render_options_read(gn_settings *settings, packed_scene *packed, const char *const values[], problem *why)
 {
     *settings = packed->settings;
-    if (read_fixed_choices(values, why) || read_method(settings, packed, values, why) ||
-        (settings->shadow == GN_SHADOW_VOLUMES && check_volumes(values, why)) ||
-        read_parts(settings, packed, values, why) || read_sizes(settings, values, why) ||
-        (settings->shadow == GN_SHADOW_VOLUMES && packed_make_edges(packed, 0, why)))
+    if (read_parameterisation(values[RENDER_PARAMETERISE], why) || read_method(settings, packed, values, why))
+        return -1;
+    int volumes = settings->shadow == GN_SHADOW_VOLUMES;
+    if ((volumes && check_volumes(values, why)) || read_light_pass(settings, values, why) ||
+        read_camera_pass(settings, values, why) || read_amounts(settings, packed, values, why) ||
+        read_sizes(settings, values, why) || (volumes && packed_make_edges(packed, 0, why)))
         return -1;
     return check_combination(settings, packed, why);
 }
@@ -210,51 +224,4 @@ int work_options_read(gn_settings *settings, const char *const values[], problem
         settings->map_rows = (uint16_t)number;
     }
     return 0;
-}
-
-const char *render_shadow_name(const gn_settings *settings)
-{
-    return settings->shadow == GN_SHADOW_VOLUMES ? "volumes" : "map";
-}
-
-const char *render_surface_name(int surface)
-{
-    return surface >= 0 && surface <= GN_MIXED ? surfaces[surface] : "?";
-}
-
-const char *render_cull_name(int cull)
-{
-    return cull >= 0 && cull <= GN_CULL_FRONT ? culls[cull] : "?";
-}
-
-const char *render_layers_name(int layers)
-{
-    return layers >= 0 && layers <= GN_LAYERS_TWO ? layer_names[layers] : "?";
-}
-
-const char *render_status_text(gn_status status)
-{
-    switch (status) {
-    case GN_OK:
-        return "done";
-    case GN_STOPPED:
-        return "stopped";
-    case GN_BAD_ARGUMENT:
-        return "an argument is none that it knows";
-    case GN_OUT_OF_RANGE:
-        return "a number is out of range";
-    case GN_TOO_SMALL:
-        return "the memory block is too small";
-    case GN_MISALIGNED:
-        return "the memory block is not aligned";
-    case GN_BAD_MESH:
-        return "a mesh refers to vertices or edges that do not exist";
-    case GN_TOO_MANY:
-        return "too many objects or triangles";
-    case GN_UNSUPPORTED:
-        return "settings that make no sense together";
-    case GN_NOT_READY:
-        return "called out of order";
-    }
-    return "an unknown status";
 }

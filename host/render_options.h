@@ -16,6 +16,7 @@ enum {
     RENDER_LAYERS,
     RENDER_SURFACE,
     RENDER_BIAS,
+    RENDER_SLOPE,
     RENDER_RECEIVER,
     RENDER_RECONSTRUCT,
     RENDER_HEAD_SIZES,
@@ -30,10 +31,11 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
 #define RENDER_OPTIONS \
     {0, 0, "How shadows are made:"}, \
     {"--method", "NAME", \
-     "constant, midpoint, dual, second-depth, mixed or auto: a preset of the\n" \
-     "options below. auto (the default): second-depth where every mesh is\n" \
-     "closed, else mixed with bias 8t. volumes: shadow volumes, right at every\n" \
-     "pixel but ties, and without a map: none of the options below"}, \
+     "constant, midpoint, dual, second-depth, mixed, slope, adaptive or auto: a\n" \
+     "preset of the options below. adaptive: constant, bias 0.0001r, receiver\n" \
+     "virtual. auto (the default): second-depth where every mesh is closed, else\n" \
+     "mixed; receiver virtual. volumes: shadow volumes, right at every pixel but\n" \
+     "ties, and without a map: none of the options below"}, \
     {"--parameterise", "NAME", "uniform: the map covers the light's frustum evenly"}, \
     {"--cull", "WHICH", \
      "auto, none, back or front faces of closed meshes in the light pass.\n" \
@@ -44,12 +46,24 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
     {"--virtual-surface", "NAME", \
      "what a pixel is compared with (z1, z2: nearest and second depth, b: bias):\n" \
      "constant z1 + b; midpoint (z1 + z2) / 2; dual z1 + min((z2 - z1) / 2, b);\n" \
-     "second z2; mixed: second where the nearest mesh is closed, else dual"}, \
+     "second z2 + b; mixed: second where the nearest mesh is closed, else dual;\n" \
+     "slope z1 + F (m - z1) + b, m: the least z + half a texel of its own slope"}, \
     {"--bias", "B", \
      "in world units (0.1), in texels (2t) or in units of the light's depth\n" \
-     "range (0.02r); for constant, dual and mixed. Default: 2t"}, \
-    {"--receiver", "NAME", "point: the pixel's own depth is compared"}, \
-    {"--reconstruct", "NAME", "nearest: one texel decides"}, \
+     "range (0.02r); not for midpoint. Default: 2t; slope 0.0005r; second 0"}, \
+    {"--slope", "F", \
+     "the factor F of the virtual surface slope (default 2) and of the receiver\n" \
+     "plane-bias (default 1; with both, one for both): 0 to 64"}, \
+    {"--receiver", "NAME", \
+     "what is compared: point: the pixel's own depth; plane-bias: the same less\n" \
+     "F times half a texel of its triangle's slope; virtual: where texels about\n" \
+     "it disagree, the depth of its triangle's plane at their centres;\n" \
+     "virtual-always: that depth at every pixel. Default: as the method says,\n" \
+     "else point"}, \
+    {"--reconstruct", "NAME", \
+     "nearest (the default): one texel decides; fractions of light: bilinear, of\n" \
+     "the 4 texels about the point; jitter4x4, of 16, one of each cell; pcf3,\n" \
+     "pcf5, pcf7, of so many texels squared"}, \
     {0, 0, "Sizes (the scene file has defaults):"}, \
     {"--map", "N", "the shadow map's size: N or WxH, each from 1 to 4096"}, \
     {"--size", "WxH", "the image's size, each from 1 to 4096"}
@@ -68,16 +82,5 @@ int render_options_read(gn_settings *settings, packed_scene *packed, const char 
 
 /* Workers and regions; values from WORK_HEAD on. 0, or -1 and the problem. */
 int work_options_read(gn_settings *settings, const char *const values[], problem *why);
-
-/* "map" or "volumes". */
-const char *render_shadow_name(const gn_settings *settings);
-
-/* The words of --virtual-surface, --cull and --layers for a setting. */
-const char *render_surface_name(int surface);
-const char *render_cull_name(int cull);
-const char *render_layers_name(int layers);
-
-/* What a status of the core means, for a message. */
-const char *render_status_text(gn_status status);
 
 #endif

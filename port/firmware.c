@@ -7,7 +7,7 @@
  *     memory plan N stack N                 bytes: of the largest context, and of stack at its deepest
  *
  * Each method runs twice, with the plan's regions and with small ones of our own: equal hashes are required. Exit
- * status 0: every stage ran, every method made light and shadow. */
+ * status 0: every stage ran, every method made light and shadow, and those that filter, and no other, fractions. */
 #include "gnomon.h"
 #include "port.h"
 #include "print.h"
@@ -46,50 +46,83 @@ typedef struct method {
     gn_layers layers;
     gn_format format;
     gn_bias bias;
+    gn_q16_16 slope;
+    const gn_receiver *receiver;
+    const gn_reconstruction *reconstruction;
     gn_shadow shadow;
     staging staging;
 } method;
 
-/* Biases: two texels, a fiftieth of the light's depth range. */
-enum { TWO_TEXELS = 2 << 16, FIFTIETH = 0xffffffffu / 50 };
+/* Biases: two texels, parts of the light's depth range; slopes: one and two. */
+#define TEXELS_2                                                                                                       \
+    {                                                                                                                  \
+        GN_BIAS_TEXELS, 2 << 16                                                                                        \
+    }
+#define RANGE_50TH                                                                                                     \
+    {                                                                                                                  \
+        GN_BIAS_RANGE, 0xffffffffu / 50                                                                                \
+    }
+#define RANGE_2000TH                                                                                                   \
+    {                                                                                                                  \
+        GN_BIAS_RANGE, 0xffffffffu / 2000                                                                              \
+    }
+enum { SLOPE_1 = 1 << 16, SLOPE_2 = 2 << 16 };
 
+/* Every virtual surface, receiver and reconstruction, over maps that each must be right for, in both staging. */
 static const method methods[] = {
-    {"constant",
-     GN_CONSTANT,
-     GN_CULL_NONE,
-     GN_LAYERS_FIRST,
-     GN_RGB888,
-     {GN_BIAS_RANGE, FIFTIETH},
-     GN_SHADOW_MAP,
-     AS_PACKED},
-    {"midpoint", GN_MIDPOINT, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB565, {GN_BIAS_TEXELS, 0}, GN_SHADOW_MAP, AS_PACKED},
-    {"dual", GN_DUAL, GN_CULL_BACK, GN_LAYERS_TWO, GN_RGB888, {GN_BIAS_TEXELS, TWO_TEXELS}, GN_SHADOW_MAP, AS_PACKED},
-    {"second-front",
-     GN_SECOND,
-     GN_CULL_FRONT,
-     GN_LAYERS_FIRST,
-     GN_RGB888,
-     {GN_BIAS_TEXELS, 0},
-     GN_SHADOW_MAP,
-     AS_PACKED},
-    {"second-two", GN_SECOND, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB565, {GN_BIAS_TEXELS, 0}, GN_SHADOW_MAP, AS_PACKED},
-    {"mixed", GN_MIXED, GN_CULL_NONE, GN_LAYERS_TWO, GN_RGB888, {GN_BIAS_TEXELS, TWO_TEXELS}, GN_SHADOW_MAP, AS_PACKED},
-    {"volumes",
-     GN_CONSTANT,
-     GN_CULL_AUTO,
-     GN_LAYERS_AUTO,
-     GN_RGB888,
-     {GN_BIAS_TEXELS, 0},
-     GN_SHADOW_VOLUMES,
-     AS_PACKED},
-    {"volumes-moved",
-     GN_CONSTANT,
-     GN_CULL_AUTO,
-     GN_LAYERS_AUTO,
-     GN_RGB565,
-     {GN_BIAS_TEXELS, 0},
-     GN_SHADOW_VOLUMES,
-     MOVED},
+    {.name = "constant", .cull = GN_CULL_NONE, .layers = GN_LAYERS_FIRST, .format = GN_RGB888, .bias = RANGE_50TH},
+    {.name = "midpoint", .surface = GN_MIDPOINT, .cull = GN_CULL_NONE, .layers = GN_LAYERS_TWO, .format = GN_RGB565},
+    {.name = "dual",
+     .surface = GN_DUAL,
+     .cull = GN_CULL_BACK,
+     .layers = GN_LAYERS_TWO,
+     .format = GN_RGB888,
+     .bias = TEXELS_2},
+    {.name = "second-front",
+     .surface = GN_SECOND,
+     .cull = GN_CULL_FRONT,
+     .layers = GN_LAYERS_FIRST,
+     .format = GN_RGB888},
+    {.name = "second-two", .surface = GN_SECOND, .cull = GN_CULL_NONE, .layers = GN_LAYERS_TWO, .format = GN_RGB565},
+    {.name = "mixed",
+     .surface = GN_MIXED,
+     .cull = GN_CULL_NONE,
+     .layers = GN_LAYERS_TWO,
+     .format = GN_RGB888,
+     .bias = TEXELS_2},
+    {.name = "slope", .surface = GN_SLOPE, .format = GN_RGB888, .bias = RANGE_2000TH, .slope = SLOPE_2},
+    {.name = "virtual", .surface = GN_SECOND, .format = GN_RGB888, .receiver = &gn_virtual},
+    {.name = "always-moved",
+     .surface = GN_MIXED,
+     .format = GN_RGB565,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual_always,
+     .staging = MOVED},
+    {.name = "plane-bias", .format = GN_RGB888, .bias = RANGE_2000TH, .slope = SLOPE_1, .receiver = &gn_plane_bias},
+    {.name = "bilinear",
+     .surface = GN_DUAL,
+     .format = GN_RGB565,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_bilinear},
+    {.name = "jitter", .format = GN_RGB888, .bias = RANGE_50TH, .reconstruction = &gn_jitter_4x4},
+    {.name = "jitter-moved",
+     .surface = GN_SECOND,
+     .format = GN_RGB888,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_jitter_4x4,
+     .staging = MOVED},
+    {.name = "pcf3", .format = GN_RGB565, .bias = RANGE_2000TH, .receiver = &gn_virtual, .reconstruction = &gn_box_3x3},
+    {.name = "pcf5", .surface = GN_SECOND, .format = GN_RGB888, .receiver = &gn_virtual, .reconstruction = &gn_box_5x5},
+    {.name = "pcf7-moved",
+     .format = GN_RGB565,
+     .bias = RANGE_2000TH,
+     .slope = SLOPE_1,
+     .receiver = &gn_plane_bias,
+     .reconstruction = &gn_box_7x7,
+     .staging = MOVED},
+    {.name = "volumes", .format = GN_RGB888, .shadow = GN_SHADOW_VOLUMES},
+    {.name = "volumes-moved", .format = GN_RGB565, .shadow = GN_SHADOW_VOLUMES, .staging = MOVED},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
@@ -110,6 +143,7 @@ typedef struct result {
     uint32_t light_instructions, camera_instructions;
     size_t plan_bytes;
     int light_and_shadow;
+    int fractions;
 } result;
 
 static void write_field(const char *text)
@@ -183,16 +217,24 @@ static stage_hash hash_colour(stage_hash hash, gn_format format)
     return hash;
 }
 
-static stage_hash hash_mask(stage_hash hash, int *light_and_shadow)
+static stage_hash hash_mask(stage_hash hash)
 {
-    int lit = 0, shadowed = 0;
-    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
         hash = stage_hash_u8(hash, mask[i]);
-        lit |= mask[i] == 254;
-        shadowed |= mask[i] == 0;
-    }
-    *light_and_shadow = lit && shadowed;
     return hash;
+}
+
+/* What a mask must hold for its hash to say anything. */
+static void look_at_mask(result *out)
+{
+    uint32_t lit = 0, shadowed = 0, empty = 0;
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        lit += mask[i] == 254;
+        shadowed += mask[i] == 0;
+        empty += mask[i] == 255;
+    }
+    out->light_and_shadow = lit && shadowed;
+    out->fractions = lit + shadowed + empty < WIDTH * HEIGHT;
 }
 
 /* The light pass in steps, so that the layers can be seen before they are resolved. */
@@ -226,6 +268,9 @@ static gn_settings settings_of(const method *by, int small_regions)
     settings.layers = (uint8_t)by->layers;
     settings.format = (uint8_t)by->format;
     settings.bias = by->bias;
+    settings.slope = by->slope;
+    settings.receiver = by->receiver;
+    settings.reconstruction = by->reconstruction;
     settings.mask = 1;
     if (small_regions) {
         settings.map_rows = 24;
@@ -279,7 +324,8 @@ static void render(result *out, const golden_scene *golden, const method *by, in
     if (status != GN_OK)
         fail("camera", golden, by, status);
     out->camera_instructions = port_instructions() - start;
-    out->stages[MASK_STAGE] = hash_mask(stage_hash_init(), &out->light_and_shadow);
+    look_at_mask(out);
+    out->stages[MASK_STAGE] = hash_mask(stage_hash_init());
     out->stages[COLOUR_STAGE] = hash_colour(stage_hash_init(), format);
 }
 
@@ -413,6 +459,8 @@ static size_t render_method(const golden_scene *packed, const method *by)
     }
     if (!whole.light_and_shadow)
         fail("no-light-or-no-shadow", &golden, by, 0);
+    if (whole.fractions != (by->reconstruction != 0))
+        fail("fractions-not-as-the-method-has-them", &golden, by, -whole.fractions);
     write_cost_line(golden.name, by->name, &whole);
     return whole.plan_bytes > parts.plan_bytes ? whole.plan_bytes : parts.plan_bytes;
 }

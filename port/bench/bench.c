@@ -5,8 +5,12 @@
 #include "port.h"
 #include "print.h"
 
+#include "fence.h"
 #include "lshape.h"
 #include "pins.h"
+#include "pipes.h"
+#include "table.h"
+#include "torus2.h"
 
 void mark_begin(void);
 void mark_end(void);
@@ -77,11 +81,12 @@ static void light_along_minus_z(gn_light *light)
     light->box_depth = 2 * DEPTH;
 }
 
-static gn_settings light_settings(gn_layers layers)
+/* GN_CONSTANT: one layer, GN_DUAL: two, GN_SLOPE: one and what slopes accumulate. */
+static gn_settings light_settings(gn_surface surface)
 {
     gn_settings settings = gn_default_settings(16, 16, MAP);
-    settings.layers = (uint8_t)layers;
-    settings.surface = layers == GN_LAYERS_TWO ? GN_DUAL : GN_CONSTANT;
+    settings.surface = (uint8_t)surface;
+    settings.slope = 2 << 16;
     settings.cull = GN_CULL_NONE;
     settings.bias.unit = GN_BIAS_RANGE;
     settings.bias.value = 1u << 20;
@@ -109,7 +114,7 @@ static const gn_mesh narrow_mesh = {narrow_quad, quad_indices, 4, 2, sizeof(uint
 
 /* Quads over all or half of the map's columns, in front of or behind one another: every texel of the last ones is
  * nearer than all before (pass) or farther (fail). */
-static void measure_texels(const char *name, const gn_mesh *mesh, gn_layers layers, int pass)
+static void measure_texels(const char *name, const gn_mesh *mesh, gn_surface surface, int pass)
 {
     static gn_model models[QUADS];
     static gn_object objects[QUADS];
@@ -120,7 +125,7 @@ static void measure_texels(const char *name, const gn_mesh *mesh, gn_layers laye
         objects[i].model = &models[i];
         objects[i].colour = grey;
     }
-    gn_settings settings = light_settings(layers);
+    gn_settings settings = light_settings(surface);
     for (uint32_t count = QUADS / 2; count <= QUADS; count += QUADS / 2) {
         gn_scene scene = scene_of(objects, count);
         write_case(name, pass ? "-pass-" : "-fail-", count);
@@ -129,13 +134,13 @@ static void measure_texels(const char *name, const gn_mesh *mesh, gn_layers laye
 }
 
 /* The map alone: clear and resolve, by its size. The one triangle is too small for any texel. */
-static void measure_map(const char *name, gn_layers layers)
+static void measure_map(const char *name, gn_surface surface)
 {
     static const int32_t speck[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     static const gn_mesh mesh = {speck, quad_indices, 3, 1, sizeof(uint16_t), 0, 0, 0};
     static const gn_object object = {&mesh, 0, {0, 0, 0}};
     gn_scene scene = scene_of(&object, 1);
-    gn_settings settings = light_settings(layers);
+    gn_settings settings = light_settings(surface);
     for (uint16_t rows = MAP / 2; rows <= MAP; rows = (uint16_t)(rows + MAP / 2)) {
         settings.map_height = rows;
         write_case(name, "-", rows);
@@ -189,9 +194,9 @@ static gn_mesh small_mesh(const void *indices, uint32_t vertex_count, uint32_t t
 }
 
 /* The same vertices, half or all of the triangles. */
-static void measure_small_triangles(const char *name, gn_layers layers, int back_faces)
+static void measure_small_triangles(const char *name, gn_surface surface, int back_faces)
 {
-    gn_settings settings = light_settings(layers);
+    gn_settings settings = light_settings(surface);
     gn_mesh mesh = small_mesh(small_indices[back_faces], VERTICES, 0);
     gn_object object = {&mesh, 0, {0, 0, 0}};
     if (back_faces) {
@@ -209,7 +214,7 @@ static void measure_small_triangles(const char *name, gn_layers layers, int back
 /* The same triangles, some or twice as many vertices. */
 static void measure_vertices(void)
 {
-    gn_settings settings = light_settings(GN_LAYERS_FIRST);
+    gn_settings settings = light_settings(GN_CONSTANT);
     for (uint32_t count = VERTICES; count <= 2 * VERTICES; count += VERTICES) {
         gn_mesh mesh = small_mesh(small_indices[0], count, TRIANGLES);
         gn_object object = {&mesh, 0, {0, 0, 0}};
@@ -280,35 +285,149 @@ static int discard(void *user, const gn_pixels *p)
     return 0;
 }
 
+/* What the pixels of a whole view are. */
+static void look_at_view(const gn_scene *scene, const gn_settings *settings, const gn_camera *camera,
+                         const gn_light *light)
+{
+    gn_settings masks = *settings;
+    gn_plan plan;
+    masks.mask = 1;
+    prepare(scene, &masks, &plan);
+    lit = shadowed = empty = 0;
+    require(gn_light_pass(context, light) == GN_OK, "light pass");
+    require(gn_camera_pass(context, camera, count_mask, 0) == GN_OK, "camera pass");
+}
+
+/* A camera pass over what the light pass has left. */
+static void measure_camera_pass(const gn_scene *scene, const gn_settings *settings, const gn_camera *camera,
+                                const gn_light *light)
+{
+    gn_plan plan;
+    prepare(scene, settings, &plan);
+    require(gn_light_pass(context, light) == GN_OK, "light pass");
+    mark_begin();
+    gn_status status = gn_camera_pass(context, camera, discard, 0);
+    mark_end();
+    require(status == GN_OK, "camera pass");
+}
+
+/* The room in two sizes. */
+static gn_settings room_settings(const view *v, uint16_t width, uint32_t bias_texels)
+{
+    gn_settings settings = gn_default_settings(width, (uint16_t)(width / 4 * 3), 128);
+    settings.surface = GN_CONSTANT;
+    settings.bias.unit = GN_BIAS_TEXELS;
+    settings.bias.value = bias_texels << 16;
+    settings.format = (uint8_t)v->format;
+    return settings;
+}
+
 static void measure_pixels(const view *v)
 {
     gn_scene scene = scene_of(room, 2);
-    gn_plan plan;
     gn_camera camera;
     gn_light light;
     set_up_view(v, &scene, &camera, &light);
     for (uint16_t width = 160; width <= 320; width = (uint16_t)(width + 160)) {
-        gn_settings settings = gn_default_settings(width, (uint16_t)(width / 4 * 3), 128);
-        settings.surface = GN_CONSTANT;
-        settings.bias.unit = GN_BIAS_TEXELS;
-        settings.bias.value = 2u << 16;
-        settings.format = (uint8_t)v->format;
-
-        settings.mask = 1;
-        prepare(&scene, &settings, &plan);
-        lit = shadowed = empty = 0;
-        require(gn_light_pass(context, &light) == GN_OK, "light pass");
-        require(gn_camera_pass(context, &camera, count_mask, 0) == GN_OK, "camera pass");
+        gn_settings settings = room_settings(v, width, 2);
+        look_at_view(&scene, &settings, &camera, &light);
         require(lit > shadowed / 4 && shadowed > lit / 4 && empty == 0, "a full view with light and shadow");
-
-        settings.mask = 0;
-        prepare(&scene, &settings, &plan);
-        require(gn_light_pass(context, &light) == GN_OK, "light pass");
         write_case(v->name, "-", width);
-        mark_begin();
-        gn_status status = gn_camera_pass(context, &camera, discard, 0);
-        mark_end();
-        require(status == GN_OK, "camera pass");
+        measure_camera_pass(&scene, &settings, &camera, &light);
+    }
+}
+
+/* ---- receivers and reconstructions ------------------------------------------------------------------------------- */
+
+/* What a pixel is compared with and how, over second depth, or what goes with a bias. */
+typedef struct test {
+    const char *name; /* between hyphens */
+    gn_surface surface;
+    const gn_receiver *receiver;
+    const gn_reconstruction *reconstruction;
+} test;
+
+static const test tests[] = {
+    {"-point-", GN_SECOND, 0, 0},
+    {"-virtual-", GN_SECOND, &gn_virtual, 0},
+    {"-virtual-always-", GN_SECOND, &gn_virtual_always, 0},
+    {"-plane-bias-", GN_CONSTANT, &gn_plane_bias, 0},
+    {"-bilinear-", GN_SECOND, 0, &gn_bilinear},
+    {"-bilinear-virtual-", GN_SECOND, &gn_virtual, &gn_bilinear},
+    {"-jitter4x4-", GN_SECOND, 0, &gn_jitter_4x4},
+    {"-jitter4x4-virtual-", GN_SECOND, &gn_virtual, &gn_jitter_4x4},
+    {"-pcf3-", GN_SECOND, 0, &gn_box_3x3},
+    {"-pcf5-", GN_SECOND, 0, &gn_box_5x5},
+    {"-pcf5-virtual-", GN_SECOND, &gn_virtual, &gn_box_5x5},
+    {"-pcf7-", GN_SECOND, 0, &gn_box_7x7},
+};
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+/* Whole camera passes of the golden scenes: vertices, bins, visibility, shadow test, colours. */
+static void measure_golden_frames(void)
+{
+    static const struct {
+        const char *name;
+        const gn_scene *scene;
+        const gn_camera *camera;
+        const gn_light *light;
+    } golden[] = {
+        {"lshape", &lshape_scene, &lshape_camera, &lshape_light},
+        {"torus2", &torus2_scene, &torus2_camera, &torus2_light},
+        {"table", &table_scene, &table_camera, &table_light},
+        {"pipes", &pipes_scene, &pipes_camera, &pipes_light},
+        {"pins", &pins_scene, &pins_camera, &pins_light},
+        {"fence", &fence_scene, &fence_camera, &fence_light},
+    };
+    for (unsigned i = 0; i < COUNT(tests); i++) {
+        gn_settings settings = gn_default_settings(160, 120, 128);
+        settings.surface = (uint8_t)tests[i].surface;
+        settings.bias.unit = GN_BIAS_RANGE;
+        settings.bias.value = tests[i].surface == GN_CONSTANT ? 0xffffffffu / 2000 : 0;
+        settings.slope = 1 << 16;
+        settings.receiver = tests[i].receiver;
+        settings.reconstruction = tests[i].reconstruction;
+        for (unsigned g = 0; g < COUNT(golden); g++) {
+            write_case(golden[g].name, tests[i].name, 160);
+            measure_camera_pass(golden[g].scene, &settings, golden[g].camera, golden[g].light);
+        }
+    }
+}
+
+/* The room's receiver, all lit or all shadowed: every texel agrees with every other. */
+static const int32_t blind[4][3] = {
+    {-24000, -6000, 10000}, {9000, -6000, 10000}, {9000, 22000, 10000}, {-24000, 22000, 10000}};
+static const gn_mesh blind_mesh = {blind, quad_indices, 4, 2, sizeof(uint16_t), 0, 0, 0};
+static const gn_object dark_room[] = {{&receiver_mesh, 0, {200, 180, 160}}, {&blind_mesh, 0, {90, 90, 90}}};
+
+static void measure_agreement(const view *v, const char *name, int dark, const test *by)
+{
+    gn_scene scene = scene_of(dark ? dark_room : room, dark ? 2 : 1);
+    gn_camera camera;
+    gn_light light;
+    set_up_view(v, &scene, &camera, &light);
+    for (uint16_t width = 160; width <= 320; width = (uint16_t)(width + 160)) {
+        /* a bias of more than the receiver rises within the widest filter */
+        gn_settings settings = room_settings(v, width, 8);
+        settings.receiver = by->receiver;
+        settings.reconstruction = by->reconstruction;
+        look_at_view(&scene, &settings, &camera, &light);
+        require((dark ? shadowed : lit) == (uint32_t)settings.width * settings.height, "a view of one kind");
+        write_case(name, by->name, width);
+        measure_camera_pass(&scene, &settings, &camera, &light);
+    }
+}
+
+static void measure_all_agreements(void)
+{
+    for (unsigned i = 0; i < COUNT(tests); i++) {
+        measure_agreement(&views[0], "lit-sun", 0, &tests[i]);
+        measure_agreement(&views[0], "dark-sun", 1, &tests[i]);
+        if (i > 1)
+            continue; /* the rest costs the same whatever the light */
+        measure_agreement(&views[2], "lit-spot", 0, &tests[i]);
+        measure_agreement(&views[2], "dark-spot", 1, &tests[i]);
     }
 }
 
@@ -343,21 +462,12 @@ static gn_mesh quad_with_edges(const int32_t corners[4][3])
     return mesh;
 }
 
-/* A whole frame of two golden scenes, by volumes and by a map. */
+/* A whole frame of a golden scene. By a map: measure_golden_frames. */
 static void measure_frame(const char *name, const gn_scene *scene, const gn_camera *camera, const gn_light *light)
 {
     gn_settings settings = volume_settings(160, 120);
     write_case(name, "-volumes-", 160);
     measure_volumes(scene, &settings, camera, light);
-    gn_plan plan;
-    settings = gn_default_settings(160, 120, 128);
-    prepare(scene, &settings, &plan);
-    require(gn_light_pass(context, light) == GN_OK, "light pass");
-    write_case(name, "-map-", 160);
-    mark_begin();
-    gn_status status = gn_camera_pass(context, camera, discard, 0);
-    mark_end();
-    require(status == GN_OK, "camera pass");
 }
 
 /* An orthographic camera along -z; light as given. 7000 world units are half the image's height. */
@@ -413,7 +523,6 @@ static void measure_cap_fragments(void)
     gn_object objects[QUADS + 1] = {{&ground, 0, {200, 180, 160}}};
     gn_camera camera;
     gn_light light;
-    gn_plan plan;
     require(gn_look_at(&camera, eye, ahead, up) == GN_OK, "look at");
     require(gn_perspective(&camera, GN_DEGREES(38), 1000, 80000) == GN_OK, "camera");
     require(gn_spot_light(&light, eye, ahead, 0, GN_DEGREES(90), 1000, 80000) == GN_OK, "light");
@@ -435,13 +544,8 @@ static void measure_cap_fragments(void)
             write_case(wide ? "cap-wide" : "cap-narrow", "-volumes-", count);
             measure_volumes(&scene, &settings, &camera, &light);
             settings.shadow = GN_SHADOW_MAP;
-            prepare(&scene, &settings, &plan);
-            require(gn_light_pass(context, &light) == GN_OK, "light pass");
             write_case(wide ? "cap-wide" : "cap-narrow", "-map-", count);
-            mark_begin();
-            gn_status status = gn_camera_pass(context, &camera, discard, 0);
-            mark_end();
-            require(status == GN_OK, "camera pass");
+            measure_camera_pass(&scene, &settings, &camera, &light);
         }
     }
 }
@@ -560,6 +664,30 @@ static void measure_volumes_light(const char *name, int spot)
     }
 }
 
+/* Planes of receivers: a level grid of 128 triangles, and two triangles over the same pixels. gn_virtual_always asks
+ * for the plane of every pixel, and finds it in the cache as long as no two triangles of a row of the image share an
+ * entry; with points alone the same triangles cost what they cost otherwise. */
+static void measure_planes(const char *name, const view *v)
+{
+    enum { CELL_OF_GRID = 800, END = GRID / 2 * CELL_OF_GRID, Z = -10000 };
+    static const int32_t corners[4][3] = {{-END, -END, Z}, {END, -END, Z}, {END, END, Z}, {-END, END, Z}};
+    gn_camera camera;
+    gn_light light;
+    make_grid(0, Z, CELL_OF_GRID);
+    for (int whole = 0; whole < 2; whole++) {
+        gn_mesh mesh = whole ? quad_with_edges(corners) : grid_mesh(0);
+        const gn_object object = {&mesh, 0, {200, 180, 160}};
+        gn_scene scene = scene_of(&object, 1);
+        set_up_view(v, &scene, &camera, &light);
+        for (int always = 0; always < 2; always++) {
+            gn_settings settings = room_settings(v, 160, 2);
+            settings.receiver = always ? &gn_virtual_always : 0;
+            write_case(name, always ? "-virtual-" : "-point-", mesh.triangle_count);
+            measure_camera_pass(&scene, &settings, &camera, &light);
+        }
+    }
+}
+
 static void measure_all_volumes(void)
 {
     static const int32_t ahead[3] = {1, 1, -400}, across[3] = {4, 0, -1}, lamp[3] = {300, 200, 5000};
@@ -579,20 +707,28 @@ static void measure_all_volumes(void)
 int main(void)
 {
     for (int pass = 1; pass >= 0; pass--) {
-        measure_texels("one-wide", &wide_mesh, GN_LAYERS_FIRST, pass);
-        measure_texels("one-narrow", &narrow_mesh, GN_LAYERS_FIRST, pass);
-        measure_texels("two-wide", &wide_mesh, GN_LAYERS_TWO, pass);
-        measure_texels("two-narrow", &narrow_mesh, GN_LAYERS_TWO, pass);
+        measure_texels("one-wide", &wide_mesh, GN_CONSTANT, pass);
+        measure_texels("one-narrow", &narrow_mesh, GN_CONSTANT, pass);
+        measure_texels("two-wide", &wide_mesh, GN_DUAL, pass);
+        measure_texels("two-narrow", &narrow_mesh, GN_DUAL, pass);
+        measure_texels("slope-wide", &wide_mesh, GN_SLOPE, pass);
+        measure_texels("slope-narrow", &narrow_mesh, GN_SLOPE, pass);
     }
-    measure_map("one-map", GN_LAYERS_FIRST);
-    measure_map("two-map", GN_LAYERS_TWO);
+    measure_map("one-map", GN_CONSTANT);
+    measure_map("two-map", GN_DUAL);
+    measure_map("slope-map", GN_SLOPE);
     make_small_triangles();
-    measure_small_triangles("one-small", GN_LAYERS_FIRST, 0);
-    measure_small_triangles("two-small", GN_LAYERS_TWO, 0);
-    measure_small_triangles("rejected", GN_LAYERS_FIRST, 1);
+    measure_small_triangles("one-small", GN_CONSTANT, 0);
+    measure_small_triangles("two-small", GN_DUAL, 0);
+    measure_small_triangles("slope-small", GN_SLOPE, 0);
+    measure_small_triangles("rejected", GN_CONSTANT, 1);
     measure_vertices();
     for (unsigned i = 0; i < sizeof views / sizeof *views; i++)
         measure_pixels(&views[i]);
+    measure_golden_frames();
+    measure_all_agreements();
+    measure_planes("planes-sun", &views[0]);
+    measure_planes("planes-spot", &views[2]);
     measure_all_volumes();
     return 0;
 }

@@ -15,14 +15,17 @@ FNR == 1 {
 $1 == "case" { name[cases++] = $2 }
 $1 == "region" { counted[target, name[$2]] = $4 }
 
+function count(t, a) {
+    if ((t, a) in counted)
+        return counted[t, a]
+    print "no count for " t " " a > "/dev/stderr"
+    failed = 1
+    exit
+}
+
 # Instructions of case a less those of case b.
 function less(t, a, b) {
-    if (!((t, a) in counted) || !((t, b) in counted)) {
-        print "no count for " t " " a " or " b > "/dev/stderr"
-        failed = 1
-        exit
-    }
-    return counted[t, a] - counted[t, b]
+    return count(t, a) - count(t, b)
 }
 
 # Four more quads over 320 columns, less four more over 160: rows, edges and set-up cancel.
@@ -36,8 +39,29 @@ function pixel(t, view) {
     return less(t, view "-320", view "-160") / (320 * 240 - 160 * 120)
 }
 
-# What four more quads with two sides each add over half the columns; quads with a cap and
-# a lid each, by volumes less by a map.
+# A pixel that the first comparison decides: what a method adds to the nearest texel.
+function added(t, where, method) {
+    return pixel(t, where "-" method) - pixel(t, where "-point")
+}
+
+function frame(t, a) {
+    return count(t, a "-160") / (160 * 120)
+}
+
+function mean_frame(t, method,    names, n, i, sum) {
+    n = split("lshape torus2 table pipes pins fence", names, " ")
+    for (i = 1; i <= n; i++)
+        sum += frame(t, names[i] "-" method)
+    return sum / n
+}
+
+# 126 more triangles over the same pixels, by planes less by points.
+function plane(t, light) {
+    return (less(t, light "-virtual-128", light "-virtual-2") - less(t, light "-point-128", light "-point-2")) / 126
+}
+
+# What four more quads with two sides each add over half the columns; quads with a cap and a lid each, by volumes less
+# by a map.
 function side_fragment(t, how,    wide, narrow) {
     wide = less(t, "side-wide-" how "-8", "side-wide-" how "-4")
     narrow = less(t, "side-narrow-" how "-8", "side-narrow-" how "-4")
@@ -48,94 +72,115 @@ function quads_behind(t, by) {
     return less(t, "cap-wide-" by "-8", "cap-wide-" by "-4") - less(t, "cap-narrow-" by "-8", "cap-narrow-" by "-4")
 }
 
-function figure(t, row) {
-    if (row == 1) return texel(t, "one", "pass")
-    if (row == 2) return texel(t, "one", "fail")
-    if (row == 3) return texel(t, "two", "pass")
-    if (row == 4) return texel(t, "two", "fail")
-    if (row == 5) return less(t, "one-map-320", "one-map-160") / (160 * 320)
-    if (row == 6) return less(t, "two-map-320", "two-map-160") / (160 * 320)
-    if (row == 7) return less(t, "one-small-128", "one-small-64") / 64
-    if (row == 8) return less(t, "two-small-128", "two-small-64") / 64
-    if (row == 9) return less(t, "rejected-128", "rejected-64") / 64
-    if (row == 10) return less(t, "vertices-768", "vertices-384") / 384
-    if (row == 11) return pixel(t, "perspective-directional-rgb888")
-    if (row == 12) return pixel(t, "perspective-directional-rgb565")
-    if (row == 13) return pixel(t, "perspective-spot-rgb888")
-    if (row == 14) return pixel(t, "orthographic-directional-rgb888")
-    if (row == 15) return pixel(t, "orthographic-spot-rgb888")
-    if (row == 16) return counted[t, "lshape-volumes-160"] / (160 * 120)
-    if (row == 17) return counted[t, "lshape-map-160"] / (160 * 120)
-    if (row == 18) return counted[t, "pins-volumes-160"] / (160 * 120)
-    if (row == 19) return counted[t, "pins-map-160"] / (160 * 120)
-    if (row == 20) return side_fragment(t, "before")
-    if (row == 21) return side_fragment(t, "behind")
-    if (row == 22) return (quads_behind(t, "volumes") - quads_behind(t, "map")) / (4 * 2 * 160 * 240)
-    # 352 more silhouette edges from the same grid of 128 triangles
-    if (row == 23) return less(t, "sides-off-384", "sides-off-32") / 352
-    if (row == 24) return less(t, "sides-within-384", "sides-within-32") / 352
-    if (row == 25) return less(t, "sides-leaving-384", "sides-leaving-32") / 352
-    if (row == 26) return less(t, "sides-spot-384", "sides-spot-32") / 352
-    if (row == 27) return less(t, "facing-sun-256", "facing-sun-128") / 128
-    return less(t, "facing-spot-256", "facing-spot-128") / 128
+function figure(t, kind, a, b) {
+    if (kind == "texel") return texel(t, a, b)
+    if (kind == "map") return less(t, a "-320", a "-160") / (160 * 320)
+    if (kind == "small") return less(t, a "-128", a "-64") / 64
+    if (kind == "vertex") return less(t, "vertices-768", "vertices-384") / 384
+    if (kind == "pixel") return pixel(t, a)
+    if (kind == "added") return added(t, a, b)
+    if (kind == "frame") return frame(t, a)
+    if (kind == "mean") return mean_frame(t, a)
+    if (kind == "plane") return plane(t, a)
+    if (kind == "side") return side_fragment(t, a)
+    if (kind == "cap") return (quads_behind(t, "volumes") - quads_behind(t, "map")) / (4 * 2 * 160 * 240)
+    # more silhouette edges of the same grid of 128 triangles
+    if (kind == "edge") return less(t, a "-384", a "-32") / (384 - 32)
+    if (kind == "facing") return less(t, a "-256", a "-128") / 128
+    print "no figure is called " kind > "/dev/stderr"
+    failed = 1
+    exit
 }
 
-function label(row, text, limit) {
-    labels[row] = text
-    limits[row] = limit
+# One line: what it says, the most that the first target may take (empty: any), and the figure with what it is taken of.
+function row(text, limit, kind, a, b,    i, over) {
+    printf "%-54s", text
+    for (i = 1; i <= target_count; i++)
+        printf "%12.1f", figure(targets[i], kind, a, b)
+    if (limit == "") {
+        print ""
+        return
+    }
+    over = figure(targets[1], kind, a, b) > limit
+    printf "%12d%s\n", limit, over ? "  EXCEEDED" : ""
+    if (over)
+        failed = 1
 }
 
 END {
-    if (failed)
-        exit 1
-    label(1, "texel, one layer, nearer than all before", 9)
-    label(2, "texel, one layer, farther")
-    label(3, "texel, two layers, nearer than all before", 15)
-    label(4, "texel, two layers, farther than both", 15)
-    label(5, "texel of the map, one layer: clear and resolve")
-    label(6, "texel of the map, two layers: clear and resolve")
-    label(7, "triangle of 8 texels, one layer, all in", 650)
-    label(8, "triangle of 8 texels, two layers, all in")
-    label(9, "triangle rejected: back face of a closed mesh", 45)
-    label(10, "vertex, light pass")
-    label(11, "pixel, perspective, directional, RGB888", 80)
-    label(12, "pixel, perspective, directional, RGB565", 80)
-    label(13, "pixel, perspective, spot, RGB888")
-    label(14, "pixel, orthographic, directional, RGB888")
-    label(15, "pixel, orthographic, spot, RGB888")
-    label(16, "volumes: a pixel of lshape's whole camera pass", 210)
-    label(17, "a map: the same")
-    label(18, "volumes: a pixel of pins' whole camera pass", 2640)
-    label(19, "a map: the same")
-    label(20, "volumes: side, a pixel compared, before it", 27)
-    label(21, "volumes: side, a pixel compared, behind it", 20)
-    label(22, "volumes: cap or lid, a pixel", 6)
-    label(23, "volumes: silhouette edge, its rows found", 1930)
-    label(24, "volumes: the same, and a side within the screen", 7200)
-    label(25, "volumes: the same, and a side that leaves it")
-    label(26, "volumes: the same with side and lid, spot")
-    label(27, "volumes: triangle, light pass, directional", 800)
-    rows = 28
-    label(28, "volumes: triangle, light pass, spot")
-
     print "Instructions (not cycles), 16-bit depth"
-    printf "%-50s", ""
+    printf "%-54s", ""
     for (i = 1; i <= target_count; i++)
         printf "%12s", targets[i]
     printf "%12s\n", "at most"
-    for (row = 1; row <= rows; row++) {
-        printf "%-50s", labels[row]
-        for (i = 1; i <= target_count; i++)
-            printf "%12.1f", figure(targets[i], row)
-        if (limits[row] == "") {
-            print ""
-            continue
-        }
-        over = figure(targets[1], row) > limits[row]
-        printf "%12d%s\n", limits[row], over ? "  EXCEEDED" : ""
-        if (over)
-            failed = 1
-    }
-    print "Limits are for " targets[1] ". Map: 320 x 320; pixels: screen-filling quad, half in shadow, 320 x 240 less 160 x 120."
+
+    row("texel, one layer, nearer than all before", 9, "texel", "one", "pass")
+    row("texel, one layer, farther", "", "texel", "one", "fail")
+    row("texel, two layers, nearer than all before", 15, "texel", "two", "pass")
+    row("texel, two layers, farther than both", 15, "texel", "two", "fail")
+    row("texel, slope, nearer than all before", "", "texel", "slope", "pass")
+    row("texel, slope, farther", "", "texel", "slope", "fail")
+    row("texel of the map, one layer: clear and resolve", "", "map", "one-map")
+    row("texel of the map, two layers: clear and resolve", "", "map", "two-map")
+    row("texel of the map, slope: clear and resolve", "", "map", "slope-map")
+    row("triangle of 8 texels, one layer, all in", 650, "small", "one-small")
+    row("triangle of 8 texels, two layers, all in", "", "small", "two-small")
+    row("triangle of 8 texels, slope, all in", "", "small", "slope-small")
+    row("triangle rejected: back face of a closed mesh", 45, "small", "rejected")
+    row("vertex, light pass", "", "vertex")
+    row("pixel, perspective, directional, RGB888", 80, "pixel", "perspective-directional-rgb888")
+    row("pixel, perspective, directional, RGB565", 80, "pixel", "perspective-directional-rgb565")
+    row("pixel, perspective, spot, RGB888", "", "pixel", "perspective-spot-rgb888")
+    row("pixel, orthographic, directional, RGB888", "", "pixel", "orthographic-directional-rgb888")
+    row("pixel, orthographic, spot, RGB888", "", "pixel", "orthographic-spot-rgb888")
+
+    print "What a pixel costs over point and nearest where all texels agree"
+    row("virtual samples, lit, directional", 14, "added", "lit-sun", "virtual")
+    row("virtual samples, shadowed, directional", 14, "added", "dark-sun", "virtual")
+    row("virtual samples, lit, spot", 14, "added", "lit-spot", "virtual")
+    row("virtual samples, shadowed, spot", 14, "added", "dark-spot", "virtual")
+    row("virtual samples always, lit", "", "added", "lit-sun", "virtual-always")
+    row("plane bias, lit", "", "added", "lit-sun", "plane-bias")
+    row("bilinear, lit", "", "added", "lit-sun", "bilinear")
+    row("bilinear, shadowed", "", "added", "dark-sun", "bilinear")
+    row("bilinear, virtual samples, lit", "", "added", "lit-sun", "bilinear-virtual")
+    row("4x4 jitter, lit", "", "added", "lit-sun", "jitter4x4")
+    row("3x3, lit", "", "added", "lit-sun", "pcf3")
+    row("5x5, lit", "", "added", "lit-sun", "pcf5")
+    row("7x7, lit", "", "added", "lit-sun", "pcf7")
+    row("plane of a receiver, directional", "", "plane", "planes-sun")
+    row("plane of a receiver, spot", "", "plane", "planes-spot")
+
+    print "A pixel of the whole camera pass, mean over the six golden scenes, 160 x 120, map 128"
+    row("point, nearest", "", "mean", "point")
+    row("virtual samples", "", "mean", "virtual")
+    row("virtual samples always", "", "mean", "virtual-always")
+    row("plane bias", "", "mean", "plane-bias")
+    row("bilinear", "", "mean", "bilinear")
+    row("bilinear, virtual samples", "", "mean", "bilinear-virtual")
+    row("4x4 jitter", "", "mean", "jitter4x4")
+    row("4x4 jitter, virtual samples", "", "mean", "jitter4x4-virtual")
+    row("3x3", "", "mean", "pcf3")
+    row("5x5", "", "mean", "pcf5")
+    row("5x5, virtual samples", "", "mean", "pcf5-virtual")
+    row("7x7", "", "mean", "pcf7")
+
+    print "Shadow volumes"
+    row("a pixel of lshape's whole camera pass", 210, "frame", "lshape-volumes")
+    row("by a map: the same", "", "frame", "lshape-point")
+    row("a pixel of pins' whole camera pass", 2640, "frame", "pins-volumes")
+    row("by a map: the same", "", "frame", "pins-point")
+    row("side, a pixel compared, before it", 27, "side", "before")
+    row("side, a pixel compared, behind it", 20, "side", "behind")
+    row("cap or lid, a pixel", 6, "cap")
+    row("silhouette edge, its rows found", 1930, "edge", "sides-off")
+    row("the same, and a side within the screen", 7200, "edge", "sides-within")
+    row("the same, and a side that leaves it", "", "edge", "sides-leaving")
+    row("the same with side and lid, spot", "", "edge", "sides-spot")
+    row("triangle, light pass, directional", 800, "facing", "facing-sun")
+    row("triangle, light pass, spot", "", "facing", "facing-spot")
+
+    print "Limits are for " targets[1] ". Map: 320 x 320; pixels: screen-filling quad, half in shadow or all of one kind,"
+    print "320 x 240 less 160 x 120."
     exit failed
 }

@@ -1,6 +1,6 @@
 /* How much memory a typical job takes: 1,000 triangles in flash, a map of 128 x 128, an image of 320 x 240, second
- * depth; or shadow volumes, where footprint_volumes.c includes it. Linked into a RAM of RAM_LIMIT bytes (board.ld), so
- * that running at all proves that it fits. Prints
+ * depth, the nearest texel at the point's own depth; or what the files that include it choose. Linked into a RAM of
+ * RAM_LIMIT bytes (board.ld), so that running at all proves that it fits. Prints
  *
  *     ram plan N statics N stack N whole N      bytes
  */
@@ -12,6 +12,12 @@
 /* Known when compiled, so that only one method is linked. */
 #ifndef FOOTPRINT_SHADOW
 #define FOOTPRINT_SHADOW GN_SHADOW_MAP
+#endif
+#ifndef FOOTPRINT_RECEIVER
+#define FOOTPRINT_RECEIVER 0
+#endif
+#ifndef FOOTPRINT_RECONSTRUCTION
+#define FOOTPRINT_RECONSTRUCTION 0
 #endif
 
 enum { RAM_LIMIT = 96 * 1024, STACK = 4096, STATICS = 1024 };
@@ -57,6 +63,8 @@ int main(void)
     gn_context *context;
     settings.mask = 1;
     settings.shadow = FOOTPRINT_SHADOW;
+    settings.receiver = FOOTPRINT_RECEIVER;
+    settings.reconstruction = FOOTPRINT_RECONSTRUCTION;
     if (gn_make_plan(&plan, &footprint_scene, &settings) != GN_OK || plan.triangles != 1000)
         return 1;
     if (gn_init(&context, &footprint_scene, &settings, memory, sizeof memory) != GN_OK)

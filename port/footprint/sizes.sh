@@ -29,12 +29,12 @@ done
 echo "Flash: the whole archive, every method; what a program does not use is not linked."
 echo
 
-# flash_of PROGRAM LIMIT: the functions and tables of the archive that a program holds.
+# flash_of PROGRAM: the functions and tables of the archive that it holds.
 flash_of() {
     {
         arm-none-eabi-nm --defined-only "$build/cortex-m4-16/libgnomon.a" | awk 'NF == 3 { print "core", $3 }'
         arm-none-eabi-nm -S "$build/cortex-m4-16/footprint/$1.elf" | awk 'NF == 4 { print "linked", $4, $2 }'
-    } | awk -v limit="$2" '
+    } | awk '
         function hexadecimal(text,    value, i) {
             for (i = 1; i <= length(text); i++)
                 value = 16 * value + index("0123456789abcdef", substr(text, i, 1)) - 1
@@ -42,30 +42,35 @@ flash_of() {
         }
         $1 == "core" { core[$2] = 1 }
         $1 == "linked" && $2 in core { bytes += hexadecimal($3) }
-        END {
-            printf "Flash of the core %d bytes (at most %d)\n", bytes, limit
-            exit bytes > limit
-        }'
+        END { print bytes + 0 }'
 }
 
-# ram_of PROGRAM
-ram_of() {
-    awk -v limit=$ram_limit '
+# job TEXT PROGRAM [FLASH LIMIT]: one line. What the program printed says that it ran, and in how much RAM.
+job() {
+    flash=$(flash_of "$2")
+    awk -v text="$1" -v flash="$flash" -v flash_limit="${3:-0}" -v ram_limit=$ram_limit '
         $1 == "ram" {
-            printf "RAM: context %d + other statics %d + stack %d = %d bytes (at most %d)\n", $3, $5, $7, $9, limit
-            fits = $9 <= limit
+            printf "%-40s %6d%9s %8d %8d %6d %6d\n", text, flash, flash_limit ? flash_limit : "", $3, $5, $7, $9
+            ran = 1
+            fits = flash && (!flash_limit || flash <= flash_limit) && $9 <= ram_limit
         }
         END {
-            if (!fits)
-                print "the footprint program failed or needs more"
+            if (!ran)
+                print text ": the program failed"
+            else if (!fits)
+                print text ": EXCEEDED"
             exit !fits
-        }' "$build/cortex-m4-16/footprint/$1.txt"
+        }' "$build/cortex-m4-16/footprint/$2.txt" || failed=1
 }
 
-echo "Cortex-M4, 1,000 triangles in flash, image 320 x 240, map 128 x 128, second depth, 16 bits:"
-flash_of footprint $flash_limit || failed=1
-ram_of footprint || failed=1
-echo "The same by shadow volumes:"
-flash_of footprint_volumes $volumes_flash_limit || failed=1
-ram_of footprint_volumes || failed=1
+echo "Cortex-M4, 1,000 triangles in flash, image 320 x 240, 16 bits, bytes; at most $ram_limit of RAM"
+printf '%-40s %6s%9s %8s %8s %6s %6s\n' "" flash "at most" context statics stack RAM
+job "map 128 x 128, second depth, point" footprint $flash_limit
+job "the same with virtual samples" footprint_virtual
+job "with a bias by the receiver's plane" footprint_plane_bias
+job "bilinear" footprint_bilinear
+job "4 x 4 jitter" footprint_jitter
+job "box 5 x 5" footprint_box
+job "box 5 x 5 with virtual samples" footprint_virtual_box
+job "shadow volumes" footprint_volumes $volumes_flash_limit
 exit $failed

@@ -29,6 +29,8 @@ measured_is_no_deeper() {
 for target in $EMBEDDED_DEPTHS; do
     check "$target: no recursion" none "$target" recursion
     check "$target: every frame has a fixed size" none "$target" dynamic
+    check "$target: every function that a pointer may mean is in the sum" none "$target" unreached
+    check "$target: every pointer that the sum knows exists" none "$target" stale
     check "$target: only the flush callback is called through a pointer" only_flush_is_called_through_a_pointer "$target"
     check "$target: the stack in use was no deeper than the call graph says" measured_is_no_deeper "$target"
     echo "# $target: $(analyse "$target" | grep '^deepest ')"

@@ -1,6 +1,7 @@
 /* Depth and Q planes of random triangles against exact rationals in 128 bits: gradients, values at every kind of
- * covered centre, the rule for all but edge-on triangles, and the definition bit for bit. Vertices lie up to 2^20 from
- * the centre of a map of 4096, the worst that either pass may hand over. Cases: 300000, or GNOMON_CASES. */
+ * covered centre, steep planes in 64 bits, the rule for all but edge-on triangles, and the definition bit for bit.
+ * Vertices lie up to 2^20 from the centre of a map of 4096, the worst that either pass may hand over. Cases: 300000, or
+ * GNOMON_CASES. */
 #include "gn_clip.h"
 #include "tap.h"
 
@@ -195,11 +196,16 @@ static void depth_planes_keep_their_bounds(uint64_t cases)
         triangle t = random_triangle(GN_DEPTH_GUARD, 0x80000000 - GN_DEPTH_GUARD);
         gn_depth_plane plane;
         samples s;
-        gn_make_depth_plane(&plane, &t.v[0], &t.v[1], &t.v[2], (int64_t)t.area);
+        int got_steep = gn_make_depth_plane(&plane, &t.v[0], &t.v[1], &t.v[2], (int64_t)t.area);
         int32_t g[2] = {as_signed(plane.dx), as_signed(plane.dy)};
         exact numerator[2] = {512 * t.nx, 512 * t.ny};
         exact d[2] = {defined_depth_gradient(t.nx, t.area), defined_depth_gradient(t.ny, t.area)};
         int steep = magnitude(d[0]) >> 30 || magnitude(d[1]) >> 30;
+        if (got_steep != steep && failures++ < 5) {
+            note("case %llu: steep is %d, gradients by definition %lld %lld, expected %d", (unsigned long long)n,
+                 got_steep, (long long)d[0], (long long)d[1], steep);
+            show(&t);
+        }
         if (steep) {
             uint32_t farthest = 0;
             for (int i = 0; i < 3; i++)
@@ -263,6 +269,157 @@ static void depth_planes_keep_their_bounds(uint64_t cases)
        (unsigned long long)centres);
     note("largest errors: gradient %.4Lf, depth %.4Lf of their bounds; depth %.1Lf of the guard's 32768 units",
          worst_gradient, worst_depth, worst_units);
+}
+
+/* ---- steep planes ---------------------------------------------------------------------------------------------- */
+
+/* Of little extent and much depth: from 1/256 pixel up, and slivers of any length. */
+static triangle steep_triangle(void)
+{
+    const int64_t low = GN_DEPTH_GUARD, high = 0x80000000 - GN_DEPTH_GUARD, centre = 128 * 4096;
+    triangle t;
+    do {
+        int64_t reach = (int64_t)1 << between(0, 12), x = centre + between(-(1 << 19), 1 << 19),
+                y = centre + between(-(1 << 19), 1 << 19), k = between(0, 1000);
+        for (int i = 0; i < 3; i++) {
+            t.v[i].x = (int32_t)(x + between(-reach, reach));
+            t.v[i].y = (int32_t)(y + between(-reach, reach));
+            t.v[i].depth = (uint32_t)(between(0, 3) ? between(low, high) : between(0, 1) ? low : high);
+        }
+        if (between(0, 1)) { /* almost seen edge-on */
+            t.v[2].x = (int32_t)(t.v[0].x + (t.v[1].x - t.v[0].x) * k / 1000 + between(-1, 1));
+            t.v[2].y = (int32_t)(t.v[0].y + (t.v[1].y - t.v[0].y) * k / 1000 + between(-1, 1));
+        }
+        find_gradients(&t);
+        if (t.area < 0) {
+            gn_vertex v = t.v[1];
+            t.v[1] = t.v[2];
+            t.v[2] = v;
+            find_gradients(&t);
+        }
+    } while (t.area == 0);
+    return t;
+}
+
+/* The definition: q 2^(exponent + 9), rounded half up where that is a fraction. *sheer: 2^40 may be reached. */
+static exact defined_steep_gradient(exact n, exact area, int *sheer)
+{
+    int exponent;
+    if (n == 0)
+        return 0;
+    exact g = (exact)quotient(n, area, &exponent);
+    exponent += 9;
+    if (exponent > 8) /* q < 2^32 */
+        *sheer = 1;
+    else if (exponent >= 0)
+        g <<= exponent;
+    else
+        g = exponent < -40 ? 0 : (g + ((exact)1 << (-exponent - 1))) >> -exponent;
+    return n < 0 ? -g : g;
+}
+
+typedef struct steep_count {
+    unsigned failures;
+    uint64_t steep, sheer, centres, beyond;
+    real worst_gradient, worst_depth;
+} steep_count;
+
+/* Depths at covered centres are within the corners' range, give or take the gradients' error; beside the triangle they
+ * go on without wrapping, up to the most that a map's other end can ask for. */
+static void check_steep_depths(const triangle *t, const gn_wide_plane *plane, const real bound[2], uint64_t n,
+                               steep_count *count)
+{
+    samples s;
+    find_samples(&s, t);
+    for (int i = 0; i < s.count + 4; i++) {
+        int32_t corner = 4095 * (i & 1), other = 4095 * (i >> 1 & 1);
+        int32_t column = i < s.count ? s.column[i] : corner, row = i < s.count ? s.row[i] : other;
+        exact px = 256 * (exact)column + 128 - t->v[0].x, py = 256 * (exact)row + 128 - t->v[0].y;
+        exact value = plane->base + (exact)column * plane->dx + (exact)row * plane->dy;
+        exact held = value < 0 ? 0 : value > 0xffffffff ? 0xffffffff : value;
+        exact off = (value - 2 * (exact)t->v[0].depth) * t->area - 2 * (t->nx * px + t->ny * py);
+        real error = (real)magnitude(off) / (real)t->area;
+        real allowed = (real)magnitude(px) / 256 * bound[0] + (real)magnitude(py) / 256 * bound[1] + 1;
+        count->centres += i < s.count;
+        count->beyond += held != value;
+        if (error / allowed > count->worst_depth)
+            count->worst_depth = error / allowed;
+        if ((!(error <= allowed) || gn_wide_depth(plane, column, row) != (int64_t)value ||
+             gn_saturate(gn_wide_depth(plane, column, row)) != (uint32_t)held) &&
+            count->failures++ < 5) {
+            note("case %llu, %s (%d, %d): depth %lld, held %lu, is %.2Lf units off, at most %.2Lf allowed",
+                 (unsigned long long)n, i < s.count ? "covered centre" : "the map's corner", (int)column, (int)row,
+                 (long long)gn_wide_depth(plane, column, row),
+                 (unsigned long)gn_saturate(gn_wide_depth(plane, column, row)), error, allowed);
+            show(t);
+        }
+    }
+}
+
+static void steep_planes_keep_their_bounds(uint64_t cases)
+{
+    steep_count count;
+    memset(&count, 0, sizeof count);
+    for (uint64_t n = 0; n < cases && count.failures < 5; n++) {
+        triangle t = steep_triangle();
+        gn_depth_plane narrow;
+        gn_wide_plane plane, same;
+        if (!gn_make_depth_plane(&narrow, &t.v[0], &t.v[1], &t.v[2], (int64_t)t.area))
+            continue;
+        gn_make_steep_plane(&plane, &t.v[0], &t.v[1], &t.v[2], (int64_t)t.area);
+        gn_make_steep_plane(&same, &t.v[0], &t.v[1], &t.v[2], -(int64_t)t.area);
+        int sheer = 0;
+        exact d[2] = {defined_steep_gradient(t.nx, t.area, &sheer), defined_steep_gradient(t.ny, t.area, &sheer)};
+        exact numerator[2] = {512 * t.nx, 512 * t.ny};
+        exact base =
+            2 * (exact)t.v[0].depth + floor_shift((128 - (exact)t.v[0].x) * d[0] + (128 - (exact)t.v[0].y) * d[1], 8);
+        count.steep++;
+        count.sheer += sheer != 0;
+        if (sheer) {
+            d[0] = d[1] = 0;
+            base = 0;
+            for (int i = 0; i < 3; i++)
+                base = 2 * (exact)t.v[i].depth > base ? 2 * (exact)t.v[i].depth : base;
+        }
+        if ((plane.dx != d[0] || plane.dy != d[1] || plane.base != base || same.dx != plane.dx || same.dy != plane.dy ||
+             same.base != plane.base) &&
+            count.failures++ < 5) {
+            note("case %llu: got base %lld, gradient %lld %lld; by definition %lld, %lld %lld", (unsigned long long)n,
+                 (long long)plane.base, (long long)plane.dx, (long long)plane.dy, (long long)base, (long long)d[0],
+                 (long long)d[1]);
+            show(&t);
+        }
+        real bound[2], steepest = 0;
+        for (int i = 0; i < 2; i++) {
+            exact g = i ? plane.dy : plane.dx;
+            real slope = (real)magnitude(numerator[i]) / (real)t.area;
+            real error = (real)magnitude(g * t.area - numerator[i]) / (real)t.area;
+            steepest = slope > steepest ? slope : steepest;
+            bound[i] = 0.5L + slope / (1 << 29);
+            if (sheer)
+                continue;
+            if (error / bound[i] > count.worst_gradient)
+                count.worst_gradient = error / bound[i];
+            if (!(error <= bound[i]) && count.failures++ < 5) {
+                note("case %llu: gradient %d is %lld, %.3Lf off, at most %.3Lf allowed", (unsigned long long)n, i,
+                     (long long)g, error, bound[i]);
+                show(&t);
+            }
+        }
+        /* flat only beyond the whole range in 1/256 pixel, or within a factor of 2 of it */
+        if (sheer && steepest < 549755813888.0L * (1 - 1e-8L) && count.failures++ < 5) {
+            note("case %llu: flat, but the gradient is %.1Lf", (unsigned long long)n, steepest);
+            show(&t);
+        }
+        if (!sheer)
+            check_steep_depths(&t, &plane, bound, n, &count);
+    }
+    ok(!count.failures, "steep planes: gradients, depths, saturation and the definition, in %llu triangles",
+       (unsigned long long)count.steep);
+    ok(count.steep > cases / 8 && count.sheer > cases / 500 && count.centres > cases / 8 && count.beyond > cases / 8,
+       "%llu were flat, %llu centres were met, %llu depths lay beyond the range", (unsigned long long)count.sheer,
+       (unsigned long long)count.centres, (unsigned long long)count.beyond);
+    note("largest errors: gradient %.4Lf, depth %.4Lf of their bounds", count.worst_gradient, count.worst_depth);
 }
 
 static void q_planes_keep_their_bounds(uint64_t cases)
@@ -448,6 +605,34 @@ static void planes_done_by_hand(void)
     f.depth -= 2;
     gn_make_depth_plane(&plane, &e, &f, &g, 65536);
     ok(plane.dx == (1u << 30) - 4 && plane.dy == 0, "a gradient of 2^30 - 4 is not");
+    /* the same two as steep planes, half a pixel in from 2^30 */
+    gn_wide_plane wide;
+    gn_make_steep_plane(&wide, &e, &f, &g, 65536);
+    ok(wide.dx == (1 << 30) - 4 && wide.dy == 0 && wide.base == (1 << 30) + (1 << 29) - 2,
+       "a plane that is not steep is the same in 64 bits");
+    f.depth += 2;
+    gn_make_steep_plane(&wide, &e, &f, &g, 65536);
+    ok(wide.dx == 1 << 30 && wide.dy == 0 && wide.base == (1 << 30) + (1 << 29), "a gradient of 2^30, in 64 bits");
+    ok(gn_wide_depth(&wide, 2, 7) == INT64_C(7) << 29 && gn_saturate(gn_wide_depth(&wide, 2, 7)) == 7u << 29 &&
+           gn_saturate(gn_wide_depth(&wide, 3, 7)) == 0xffffffffu && gn_saturate(gn_wide_depth(&wide, -2, 7)) == 0,
+       "it is held at both ends of the range");
+    /* 2^29 of Z in 1/256 pixel: 2^38 a pixel, short by what the reciprocal of a power of two is, 2^-31 */
+    f.x = 1;
+    gn_make_steep_plane(&wide, &e, &f, &g, 256);
+    ok(wide.dx == (INT64_C(1) << 38) - 128 && wide.dy == 0, "a gradient of 2^38");
+    /* the whole range across half of 1/256 pixel */
+    gn_vertex low = {0, 0, GN_DEPTH_GUARD}, high = {1, 1, 0x80000000u - GN_DEPTH_GUARD},
+              also_low = {1, 2, GN_DEPTH_GUARD};
+    gn_make_steep_plane(&wide, &low, &high, &also_low, 1);
+    ok(wide.dx == 0 && wide.dy == 0 && wide.base == (INT64_C(1) << 32) - 2 * GN_DEPTH_GUARD,
+       "a gradient of almost 2^41 is flat: the farthest vertex");
+    ok(gn_saturate(-1) == 0 && gn_saturate(0) == 0 && gn_saturate(0xffffffff) == 0xffffffffu &&
+           gn_saturate(INT64_C(1) << 32) == 0xffffffffu && gn_saturate(INT64_MAX) == 0xffffffffu &&
+           gn_saturate(INT64_MIN) == 0,
+       "saturation, by hand");
+    ok(gn_rise(3, -4) == 3 && gn_rise(-1, 0) == 0 && gn_rise(INT64_C(1) << 32, -(INT64_C(1) << 32)) == 0xffffffffu &&
+           gn_rise(-(INT64_C(1) << 32), (INT64_C(1) << 32) - 1) == 0xffffffffu,
+       "half a pixel's rise is cut, and held, by hand");
 }
 
 int main(int argc, char **argv)
@@ -455,6 +640,7 @@ int main(int argc, char **argv)
     uint64_t cases = tap_cases(argc, argv, 300000);
     planes_done_by_hand();
     depth_planes_keep_their_bounds(cases);
+    steep_planes_keep_their_bounds(cases);
     q_planes_keep_their_bounds(cases);
     planes_of_clipped_triangles_do_not_wrap(cases / 3);
     return tap_done();

@@ -24,6 +24,31 @@ same_hashes() {
     [ "$(printf '%s\n' "$1" | grep -cE '^(layers|map|mask|colour) [0-9a-f]{16}$')" = 4 ] && [ "$1" = "$2" ]
 }
 
+# What the statistics say of the settings: surface, layers, cull, bias and its unit, slope, receiver, reconstruction.
+settings_of() {
+    "$gnomon" render "$@" --size 8x6 --stats /dev/stdout | awk '
+        function shown(name) { return name in value ? value[name] : "-" }
+        { gsub(/[",:]/, " "); value[$1] = $2 }
+        END {
+            bias = "bias" in value ? sprintf("%.5g %s", value["bias"], value["bias_unit"]) : "-"
+            print shown("virtual_surface"), shown("layers"), shown("cull"), bias, shown("slope"), shown("receiver"), \
+                shown("reconstruction")
+        }'
+}
+
+# chosen SETTINGS ARGUMENT...: these are the settings.
+chosen() {
+    expected=$1
+    shift
+    got=$(settings_of "$@")
+    [ "$got" = "$expected" ] || { echo "got: $got, expected: $expected"; return 1; }
+}
+
+# count_of NAME FILE: of the statistics.
+count_of() {
+    awk -v name="$1" '{ gsub(/[",:]/, " ") } $1 == name { print $2 }' "$2"
+}
+
 for command in render truth compare pack bench procedural; do
     check "help_of_${command}_names_its_use_and_status_2" sh -c "'$gnomon' $command --help | grep -q 'usage: gnomon $command' &&
         '$gnomon' $command --help | grep -q '2 bad usage'"
@@ -59,19 +84,145 @@ check "bench_prints_the_map" sh -c "'$gnomon' bench '$scene' --runs 1 --size 40x
 check "bench_of_volumes_names_them_and_no_map" sh -c "'$gnomon' bench '$scene' --runs 1 --size 40x30 --method volumes \
     --json '$folder/volumes.json' >'$folder/printed' && grep -q 'shadow volumes, region' '$folder/printed' &&
     grep -q '\"shadow\": \"volumes\"' '$folder/volumes.json' &&
-    ! grep -qE 'map|virtual|layers|cull' '$folder/printed' '$folder/volumes.json'"
+    ! grep -qE 'map|virtual|layers|cull|bias|receiver|reconstruction' '$folder/printed' '$folder/volumes.json'"
 
-for method in constant midpoint dual second-depth mixed auto; do
-    one=$(hash_of "$scene" --method $method --size 100x75 --map 60x44)
-    check "${method}_does_not_depend_on_workers" same_hashes "$one" \
-        "$(hash_of "$scene" --method $method --size 100x75 --map 60x44 --workers 3)"
-    check "${method}_does_not_depend_on_regions" same_hashes "$one" \
-        "$(hash_of "$scene" --method $method --size 100x75 --map 60x44 --region 32x7 --map-rows 5 --workers 2)"
-done
+while read -r options; do
+    # shellcheck disable=SC2086 # the options are words
+    set -- "$scene" --method $options --size 100x75 --map 60x44
+    name=$(echo "$options" | tr ' ' '_')
+    one=$(hash_of "$@")
+    check "${name}_does_not_depend_on_workers" same_hashes "$one" "$(hash_of "$@" --workers 3)"
+    check "${name}_does_not_depend_on_regions" same_hashes "$one" \
+        "$(hash_of "$@" --region 32x7 --map-rows 5 --workers 2)"
+done <<'END'
+constant
+midpoint
+dual
+second-depth
+mixed
+auto
+slope
+adaptive
+constant --receiver plane-bias --reconstruct jitter4x4
+second-depth --receiver virtual --reconstruct bilinear
+mixed --receiver virtual-always --reconstruct pcf5
+dual --receiver point --reconstruct pcf3
+mixed --receiver virtual --reconstruct pcf7
+END
+
+# Methods are presets; what is named beside them wins.
+sheet=$folder/made/sheet.scene
+sed '/^mesh/,$d' "$scene" >"$sheet"
+echo 'mesh open.obj surface open color 1 1 1' >>"$sheet"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$folder/made/open.obj"
+check "auto_of_closed_meshes_is_second_depth_with_virtual_samples" chosen "second first front 0 world - virtual nearest" "$scene"
+check "auto_of_a_sheet_is_mixed_with_virtual_samples" chosen "mixed two none 2 texels - virtual nearest" "$sheet"
+while IFS='|' read -r options expected; do
+    # shellcheck disable=SC2086 # the options are words
+    check "$(echo "$options chooses $expected" | tr -s ' ' '_')" chosen "$expected" "$scene" $options
+done <<'END'
+--method constant|constant first none 2 texels - point nearest
+--method midpoint|midpoint two none - - point nearest
+--method dual|dual two back 2 texels - point nearest
+--method second-depth|second first front 0 world - point nearest
+--method mixed|mixed two none 2 texels - point nearest
+--method slope|slope first none 0.0005 range 2 point nearest
+--method adaptive|constant first none 0.0001 range - virtual nearest
+--method auto|second first front 0 world - virtual nearest
+--method adaptive --virtual-surface constant|constant first none 0.0001 range - virtual nearest
+--method adaptive --receiver point --bias 1t|constant first none 1 texels - point nearest
+--method dual --bias 0.25|dual two back 0.25 world - point nearest
+--method second-depth --bias 0.01r|second first front 0.01 range - point nearest
+--method slope --slope 0.5|slope first none 0.0005 range 0.5 point nearest
+--method slope --receiver plane-bias|slope first none 0.0005 range 2 plane-bias nearest
+--method slope --receiver plane-bias --slope 64|slope first none 0.0005 range 64 plane-bias nearest
+--method constant --receiver plane-bias|constant first none 2 texels 1 plane-bias nearest
+--method dual --receiver virtual-always --reconstruct jitter4x4|dual two back 2 texels - virtual-always jitter4x4
+--receiver plane-bias|second first front 0 world 1 plane-bias nearest
+--receiver plane-bias --slope 0|second first front 0 world 0 plane-bias nearest
+--receiver point|second first front 0 world - point nearest
+--reconstruct bilinear|second first front 0 world - virtual bilinear
+--reconstruct pcf3|second first front 0 world - virtual pcf3
+--reconstruct pcf5 --receiver point|second first front 0 world - point pcf5
+--reconstruct pcf7 --virtual-surface mixed|mixed two none 2 texels - point pcf7
+--virtual-surface slope|slope first none 0.0005 range 2 point nearest
+--virtual-surface constant --bias 0.02r --layers first --cull none|constant first none 0.02 range - point nearest
+--virtual-surface constant --bias 3t --layers first --cull none|constant first none 3 texels - point nearest
+--virtual-surface slope --slope 2 --bias 0.0005r --layers first --cull none|slope first none 0.0005 range 2 point nearest
+--virtual-surface constant --receiver plane-bias --slope 1 --bias 0.0005r --layers first --cull none|constant first none 0.0005 range 1 plane-bias nearest
+--virtual-surface midpoint --layers two --cull none|midpoint two none - - point nearest
+--virtual-surface midpoint --layers two --cull back|midpoint two back - - point nearest
+--virtual-surface dual --bias 0.02r --layers two --cull none|dual two none 0.02 range - point nearest
+--virtual-surface dual --bias 0.02r --layers two --cull back|dual two back 0.02 range - point nearest
+--virtual-surface dual --bias 2t --layers two --cull back --receiver virtual|dual two back 2 texels - virtual nearest
+--virtual-surface second --layers two --cull none|second two none 0 world - point nearest
+--virtual-surface second --layers two --cull none --receiver virtual|second two none 0 world - virtual nearest
+--virtual-surface second --layers first --cull front --receiver virtual|second first front 0 world - virtual nearest
+--virtual-surface mixed --bias 2t --layers two --cull none --receiver virtual|mixed two none 2 texels - virtual nearest
+--virtual-surface constant --bias 0.0001r --layers first --cull none --receiver virtual|constant first none 0.0001 range - virtual nearest
+--parameterise uniform --reconstruct nearest --receiver point|second first front 0 world - point nearest
+END
+
+# What a packed scene has stays until something else is named.
+check "a_slope_is_packed" status 0 pack "$scene" -o "$folder/slope.gno" --method slope --slope 3
+check "and_comes_back" chosen "slope first none 0.0005 range 3 point nearest" "$folder/slope.gno"
+check "it_serves_a_receiver_too" chosen "slope first none 0.0005 range 3 plane-bias pcf3" "$folder/slope.gno" \
+    --receiver plane-bias --reconstruct pcf3
+check "another_method_forgets_it" chosen "constant first none 2 texels 1 plane-bias nearest" "$folder/slope.gno" \
+    --method constant --receiver plane-bias
+check "a_receiver_is_packed" status 0 pack "$scene" -o "$folder/receiver.gno" --receiver plane-bias --slope 5 \
+    --reconstruct pcf5
+check "and_comes_back_too" chosen "second first front 0 world 5 plane-bias pcf5" "$folder/receiver.gno"
+check "its_slope_goes_with_it" chosen "second first front 0 world - virtual pcf5" "$folder/receiver.gno" --receiver virtual
+check "and_leaves_nothing_behind" sh -c "'$gnomon' pack '$folder/receiver.gno' -o '$folder/again.gno' --receiver virtual &&
+    '$gnomon' pack '$scene' -o '$folder/virtual.gno' --receiver virtual --reconstruct pcf5 &&
+    cmp '$folder/again.gno' '$folder/virtual.gno'"
+check "a_method_forgets_receiver_and_reconstruction" chosen "mixed two none 2 texels - point nearest" "$folder/receiver.gno" \
+    --method mixed
+check "a_point_is_packed_where_it_is_named" status 0 pack "$scene" -o "$folder/point.gno" --receiver point
+check "and_stays_a_point" chosen "second first front 0 world - point nearest" "$folder/point.gno"
+
+# Fractions of light, and how far pixels came.
+# mask_values ARGUMENT...: the values of a mask, in order, but for lit and no surface.
+mask_values() {
+    "$gnomon" render "$@" --size 100x75 --map 32 --mask "$folder/values.pgm" --stats "$folder/values.json" &&
+        tail -c 7500 "$folder/values.pgm" | od -An -v -tu1 -w1 | awk '$1 != 254 && $1 != 255 { print $1 + 0 }' | sort -nu |
+        tr '\n' ' '
+}
+check "a_nearest_texel_gives_no_fraction" test "$(mask_values "$scene" --method mixed)" = "0 "
+ninths="0 28 56 85 113 141 169 198 226 " # floor((254 k + 4) / 9)
+check "pcf3_gives_ninths" test "$(mask_values "$scene" --method mixed --reconstruct pcf3)" = "$ninths"
+check "they_are_counted" test "$(count_of pixels_fractional "$folder/values.json")" -gt 0
+check "no_virtual_sample_is_taken_of_a_point" test "$(count_of virtual_samples "$folder/values.json")" = 0
+mask_values "$scene" --method mixed --receiver virtual --reconstruct pcf3 >"$folder/printed"
+check "virtual_samples_are_counted" test "$(count_of virtual_samples "$folder/values.json")" -gt 0
+check "every_pixel_tested_is_in_one_stage" test "$(count_of pixels_tested "$folder/values.json")" = \
+    $(($(count_of pixels_outside "$folder/values.json") + $(count_of pixels_agreed "$folder/values.json") + \
+        $(count_of pixels_virtual "$folder/values.json")))
+check "a_nearest_texel_of_a_point_has_no_stages" sh -c "'$gnomon' render '$scene' --method mixed --size 8x6 \
+    --stats '$folder/a.json' && grep -q pixels_tested '$folder/a.json' && ! grep -q pixels_agreed '$folder/a.json'"
+"$gnomon" render "$scene" --size 100x75 --map 32 --stats "$folder/values.json" --method slope --receiver virtual \
+    --reconstruct pcf5 --verbose 2>"$folder/said"
+check "verbose_names_the_settings" grep -q "^virtual surface slope, layers first, cull none, bias 0.0005r, slope 2, receiver \
+virtual, reconstruction pcf5; " "$folder/said"
+check "and_the_counts_of_the_stages" grep -qx "$(count_of pixels_tested "$folder/values.json") pixels tested: \
+$(count_of pixels_outside "$folder/values.json") outside of the light, \
+$(count_of pixels_agreed "$folder/values.json") decided by the point's depth, \
+$(count_of pixels_virtual "$folder/values.json") by virtual samples; \
+$(count_of pixels_fractional "$folder/values.json") partly lit; \
+$(count_of texels_read "$folder/values.json") texels read, \
+$(count_of virtual_samples "$folder/values.json") virtual samples" "$folder/said"
+check "bench_names_receiver_and_reconstruction" sh -c "'$gnomon' bench '$scene' --runs 1 --size 40x30 --map 32 \
+    --method adaptive --reconstruct bilinear --json '$folder/bench.json' >'$folder/printed' &&
+    grep -q 'bias 0.0001r, receiver virtual, reconstruction bilinear, region' '$folder/printed' &&
+    grep -q '\"receiver\": \"virtual\"' '$folder/bench.json' && grep -q '\"reconstruction\": \"bilinear\"' '$folder/bench.json'"
 
 check "a_scene_is_packed" status 0 pack "$scene" -o "$folder/lshape.gno"
 check "a_packed_scene_has_the_same_hashes" same_hashes "$(hash_of "$scene")" "$(hash_of "$folder/lshape.gno")"
+check "what_does_not_say_how_shadows_are_made_packs_no_method" sh -c "'$gnomon' pack '$scene' -o '$folder/again.gno' \
+    --parameterise uniform && cmp '$folder/again.gno' '$folder/lshape.gno'"
 check "a_scene_is_packed_as_c" status 0 pack "$scene" -o "$folder/l-shape.h" --size 32x24 --map 32
+check "the_core_compiles" sh -c "mkdir '$folder/core' && core=\$PWD/core && cd '$folder/core' && ${CC:-cc} -std=c99 -c \"\$core\"/*.c"
 cat >"$folder/use.c" <<'END'
 #include "l-shape.h"
 int main(void)
@@ -82,8 +233,48 @@ int main(void)
 }
 END
 check "packed_c_compiles_without_a_warning" ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror -Icore -I"$folder" \
-    "$folder/use.c" core/*.c -o "$folder/use"
+    "$folder/use.c" "$folder"/core/*.o -o "$folder/use"
 check "packed_c_holds_the_scene" "$folder/use"
+
+check "a_method_is_packed_as_c" status 0 pack "$scene" -o "$folder/chosen.h" --method slope --receiver plane-bias --slope 3.5 \
+    --bias 2t --reconstruct pcf5 --size 32x24 --map 48x64
+check "and_virtual_samples_of_a_packed_scene" status 0 pack "$folder/lshape.gno" -o "$folder/samples.h" \
+    --reconstruct jitter4x4 --receiver virtual-always
+cat >"$folder/chosen.c" <<'END'
+#include "chosen.h"
+#include "samples.h"
+int main(void)
+{
+    const gn_settings *s = &chosen_settings, *t = &samples_settings;
+    gn_plan plan;
+    int first = s->surface == GN_SLOPE && s->slope == 7 << 15 && s->bias.unit == GN_BIAS_TEXELS &&
+                s->bias.value == 2 << 16 && s->receiver == &gn_plane_bias && s->reconstruction == &gn_box_5x5 &&
+                s->map_width == 48 && s->map_height == 64 && s->shadow == GN_SHADOW_MAP;
+    int second = t->surface == GN_SECOND && !t->slope && !t->bias.value && t->receiver == &gn_virtual_always &&
+                 t->reconstruction == &gn_jitter_4x4;
+    return first && second && gn_make_plan(&plan, &chosen_scene, s) == GN_OK &&
+           gn_make_plan(&plan, &samples_scene, t) == GN_OK && chosen_camera.far_depth == samples_camera.far_depth &&
+           chosen_light.kind == samples_light.kind ? 0 : 1;
+}
+END
+check "they_compile_without_a_warning" ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror -Icore -I"$folder" "$folder/chosen.c" \
+    "$folder"/core/*.o -o "$folder/chosen"
+check "and_have_the_same_settings" "$folder/chosen"
+while read -r option word identifier; do
+    check "${word}_is_called_${identifier}_in_c" sh -c "'$gnomon' pack '$scene' -o '$folder/none.h' --method dual --$option $word &&
+        grep -q '^    \.[a-z]* = &$identifier,' '$folder/none.h' && [ \$(grep -c '&gn_' '$folder/none.h') = 1 ]"
+done <<'END'
+receiver plane-bias gn_plane_bias
+receiver virtual gn_virtual
+receiver virtual-always gn_virtual_always
+reconstruct bilinear gn_bilinear
+reconstruct jitter4x4 gn_jitter_4x4
+reconstruct pcf3 gn_box_3x3
+reconstruct pcf5 gn_box_5x5
+reconstruct pcf7 gn_box_7x7
+END
+check "a_point_and_a_nearest_texel_are_not_named_in_c" sh -c "'$gnomon' pack '$scene' -o '$folder/none.h' --method dual &&
+    grep -q GN_DUAL '$folder/none.h' && ! grep -qE 'slope|receiver|reconstruction' '$folder/none.h'"
 
 check "packed_c_has_no_edges_unless_asked_for" sh -c "! grep -q edge '$folder/l-shape.h'"
 
@@ -110,7 +301,7 @@ int main(void)
 }
 END
 check "packed_edges_compile_without_a_warning" ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Wconversion -Werror -Icore \
-    -I"$folder" "$folder/edges.c" -o "$folder/edges"
+    -I"$folder" "$folder/edges.c" "$folder"/core/*.o -o "$folder/edges"
 check "packed_edges_are_those_of_the_meshes" "$folder/edges"
 printf 'v 0 0 0\nv 1 0 0\nf 1 1 2\n' >"$folder/made/sheet.obj"
 check "a_mesh_of_no_area_is_packed_with_edges" status 0 pack "$folder/made/edged.scene" -o "$folder/none.h" --edges
@@ -118,7 +309,7 @@ echo '#include "none.h"
 int main(void) { return !(none_meshes[2].edges && none_meshes[2].edge_count == 0 && none_scene.ambient && none_light.forward[1] &&
     none_camera.far_depth && none_settings.width); }' >"$folder/none.c"
 check "and_has_none_that_count" sh -c "${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror -Icore -I'$folder' '$folder/none.c' \
-    -o '$folder/none' && '$folder/none'"
+    '$folder'/core/*.o -o '$folder/none' && '$folder/none'"
 check "edges_worth_a_notice_are_noticed" sh -c "'$gnomon' pack '$folder/made/edged.scene' -o '$folder/none.gno' --edges \
     --verbose 2>&1 | grep -qx 'gnomon: notice: mesh 2 has 1 triangles with two corners at one place'"
 
@@ -126,11 +317,14 @@ check "edges_worth_a_notice_are_noticed" sh -c "'$gnomon' pack '$folder/made/edg
 check "a_scene_is_packed_with_volumes" status 0 pack "$scene" --method volumes -o "$folder/volumes.gno"
 check "and_by_way_of_a_packed_scene_without_a_method" status 0 pack "$folder/lshape.gno" --method volumes -o "$folder/again.gno"
 check "to_the_same_bytes" cmp "$folder/volumes.gno" "$folder/again.gno"
-check "a_packed_scene_of_a_method_is_packed" status 0 pack "$scene" --method dual --bias 3t --layers two -o "$folder/dual.gno"
+check "a_packed_scene_of_a_method_is_packed" status 0 pack "$scene" --method dual --bias 3t --layers two \
+    --receiver plane-bias --slope 3 --reconstruct pcf5 -o "$folder/dual.gno"
 check "and_once_more_with_volumes" status 0 pack "$folder/dual.gno" --method volumes -o "$folder/again.gno"
 check "to_the_same_bytes_too" cmp "$folder/volumes.gno" "$folder/again.gno"
 check "volumes_of_a_packed_scene_are_not_left_for_a_surface" refuses "--virtual-surface has no meaning for shadow volumes" \
     render "$folder/volumes.gno" --virtual-surface dual -o "$folder/new.ppm"
+check "a_method_may_be_named_twice" chosen "dual two back 2 texels - point nearest" "$folder/volumes.gno" --method dual \
+    --virtual-surface dual
 check "but_for_a_method" same_hashes "$(hash_of "$folder/volumes.gno" --method dual)" "$(hash_of "$scene" --method dual)"
 
 mkdir "$folder/folder.ppm"
@@ -139,21 +333,46 @@ check "nothing_to_write_is_refused" refuses "nothing to write" render "$scene"
 check "an_option_without_its_value_is_refused" refuses "lacks its value" render "$scene" -o
 check "an_option_given_twice_is_refused" refuses "given twice" render "$scene" --map 8 --map=9 -o "$folder/new.ppm"
 check "an_unknown_method_is_refused" refuses "--method best" render "$scene" --method best -o "$folder/new.ppm"
-for method in slope adaptive silhouette; do
-    check "method_${method}_is_not_built_yet" refuses "not built yet" render "$scene" --method $method -o "$folder/new.ppm"
-done
-check "slope_surface_is_not_built_yet" refuses "not built yet" render "$scene" --virtual-surface slope -o "$folder/new.ppm"
-check "virtual_receivers_are_not_built_yet" refuses "not built yet" render "$scene" --receiver virtual -o "$folder/new.ppm"
-check "pcf_is_not_built_yet" refuses "not built yet" render "$scene" --reconstruct pcf3 -o "$folder/new.ppm"
+check "method_silhouette_is_not_built_yet" refuses "--method silhouette is not built yet" render "$scene" --method silhouette \
+    -o "$folder/new.ppm"
+check "silhouettes_are_not_built_yet" refuses "--reconstruct silhouette is not built yet" render "$scene" \
+    --reconstruct silhouette -o "$folder/new.ppm"
+check "pcf9_is_refused" refuses "--reconstruct pcf9; expected one of: nearest, bilinear, jitter4x4, pcf3, pcf5, pcf7" render \
+    "$scene" --reconstruct pcf9 -o "$folder/new.ppm"
 check "msf_is_not_built_yet" refuses "not built yet" render "$scene" --parameterise msf+rectilinear -o "$folder/new.ppm"
-check "an_unknown_receiver_is_refused" refuses "expected point" render "$scene" --receiver x -o "$folder/new.ppm"
+check "an_unknown_receiver_is_refused" refuses "--receiver x; expected one of: point, plane-bias, virtual, virtual-always" \
+    render "$scene" --receiver x -o "$folder/new.ppm"
+check "an_unknown_surface_is_refused" refuses "--virtual-surface adaptive; expected one of: constant, midpoint, dual, second," \
+    render "$scene" --virtual-surface adaptive -o "$folder/new.ppm"
 check "surface_against_method_is_refused" refuses "contradicts" render "$scene" --method dual --virtual-surface second \
     -o "$folder/new.ppm"
-check "a_bias_of_second_depth_is_refused" refuses "has no meaning" render "$scene" --method second-depth --bias 1t \
-    -o "$folder/new.ppm"
+check "another_surface_than_adaptive_has_is_refused" refuses "--virtual-surface slope contradicts --method adaptive" render \
+    "$scene" --method adaptive --virtual-surface slope -o "$folder/new.ppm"
+check "a_surface_beside_auto_is_refused" refuses "contradicts --method auto" render "$scene" --method auto \
+    --virtual-surface second -o "$folder/new.ppm"
+check "a_bias_of_midpoint_is_refused" refuses "has no meaning for the virtual surface 'midpoint'" render "$scene" \
+    --method midpoint --bias 1t -o "$folder/new.ppm"
+check "a_slope_of_nothing_is_refused" refuses "--slope has no meaning here; expected the virtual surface 'slope' or the receiver" \
+    render "$scene" --method mixed --receiver virtual --slope 2 -o "$folder/new.ppm"
+for slope in 64.00001 -0.1 2x ''; do
+    check "a_slope_of_${slope:-nothing_at_all}_is_refused" refuses "--slope $slope; expected a number from 0 to 64" render "$scene" \
+        --method slope --slope "$slope" -o "$folder/new.ppm"
+done
+for option in '--receiver virtual' '--reconstruct pcf3' '--slope 2'; do
+    # shellcheck disable=SC2086 # the option and its value
+    check "$(echo "$option" | tr ' ' '_')_with_volumes_is_refused" refuses "${option% *} has no meaning for shadow volumes" \
+        render "$scene" --method volumes $option -o "$folder/new.ppm"
+done
+check "a_receiver_of_one_column_is_refused" refuses "--receiver virtual with --reconstruct nearest, but the map is 1 x 8; expected" \
+    render "$scene" --map 1x8 -o "$folder/new.ppm"
+check "a_reconstruction_of_one_row_is_refused" refuses "--receiver point with --reconstruct pcf3, but the map is 8 x 1; expected" \
+    render "$scene" --map 8x1 --method dual --reconstruct pcf3 -o "$folder/new.ppm"
+check "a_point_takes_a_map_of_one_texel" status 0 render "$scene" --map 1 --receiver point -o "$folder/a.ppm"
 check "a_negative_bias_is_refused" refuses "bias '-1t'" render "$scene" --method dual --bias -1t -o "$folder/new.ppm"
 check "constant_with_two_layers_is_refused" refuses "makes no sense" render "$scene" --method constant --layers two \
     -o "$folder/new.ppm"
+check "slope_with_two_layers_is_refused" refuses "the virtual surface 'slope' makes no sense with --layers two" render "$scene" \
+    --method slope --layers two -o "$folder/new.ppm"
 check "dual_with_one_layer_is_refused" refuses "makes no sense" render "$scene" --method dual --layers first -o "$folder/new.ppm"
 check "midpoint_without_front_faces_is_refused" refuses "makes no sense" render "$scene" --method midpoint --cull front \
     -o "$folder/new.ppm"

@@ -21,6 +21,8 @@ static uint32_t crc32_of(const uint8_t *bytes, size_t size)
     return ~crc;
 }
 
+static uint64_t drawn; /* pictures that were rendered to their end */
+
 static void draw(packed_scene *packed, gn_shadow shadow)
 {
     frame f;
@@ -28,7 +30,7 @@ static void draw(packed_scene *packed, gn_shadow shadow)
     packed->settings.shadow = (uint8_t)shadow;
     if (frame_open(&f, &packed->scene, &packed->settings, 1, &why) == 0 &&
         frame_light_pass(&f, &packed->light, &why) == 0)
-        frame_camera_pass(&f, &packed->camera, &why);
+        drawn += frame_camera_pass(&f, &packed->camera, &why) == 0;
     frame_close(&f);
 }
 
@@ -67,7 +69,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 }
 
 #ifndef GNOMON_LIBFUZZER
-enum { GOOD_SIZE = 304 };
+enum { GOOD_SIZE = 312 };
 
 /* A scene of a triangle and its back, with their edges: an upright view along -z, a light from above. */
 static size_t make_good(uint8_t good[GOOD_SIZE])
@@ -75,25 +77,45 @@ static size_t make_good(uint8_t good[GOOD_SIZE])
     static const uint8_t indices[] = {0, 0, 1, 0, 2, 0, 2, 0, 1, 0, 0, 0};
     static const uint32_t edges[] = {0, 4, 1, 3, 2, 5};
     memset(good, 0, GOOD_SIZE);
-    memcpy(good, "GNOM\2", 5);
+    memcpy(good, "GNOM\3", 5);
     good[16] = good[18] = good[20] = good[22] = 8;
-    put(good + 60, 1 << 30), put(good + 76, 1 << 30), put(good + 92, 0xc0000000); /* camera: right, up, forward */
-    put(good + 96, 1 << 24), put(good + 104, 1), put(good + 108, 1000);
-    put(good + 116, 1 << 30), put(good + 136, 1 << 30), put(good + 144, 0xc0000000);
+    put(good + 68, 1 << 30), put(good + 84, 1 << 30), put(good + 100, 0xc0000000); /* camera: right, up, forward */
+    put(good + 104, 1 << 24), put(good + 112, 16), put(good + 116, 1000);
+    put(good + 124, 1 << 30), put(good + 144, 1 << 30), put(good + 152, 0xc0000000);
     for (int i = 0; i < 3; i++) /* the box: its corner and its size */
-        put(good + 152 + 4 * i, 0xfffffc00), put(good + 164 + 4 * i, 0x800);
-    put(good + 200, 1), put(good + 204, 1), put(good + 208, 3), put(good + 212, 2), put(good + 216, 2);
-    put(good + 220, 3), put(good + 236, 100), put(good + 252, 100);
-    memcpy(good + 260, indices, sizeof indices);
+        put(good + 160 + 4 * i, 0xfffffc00), put(good + 172 + 4 * i, 0x800);
+    put(good + 208, 1), put(good + 212, 1), put(good + 216, 3), put(good + 220, 2), put(good + 224, 2);
+    put(good + 228, 3), put(good + 244, 100), put(good + 260, 100); /* the edges; the second and third corner */
+    put(good + 240, -200u), put(good + 252, -200u), put(good + 264, -300u);
+    memcpy(good + 268, indices, sizeof indices);
     for (int i = 0; i < 6; i++)
-        put(good + 272 + 4 * i, edges[i]);
+        put(good + 280 + 4 * i, edges[i]);
     return GOOD_SIZE;
+}
+
+/* The same scene with a method: no culling or layers named, a bias of two texels, a slope of 2. */
+static void choose(uint8_t good[GOOD_SIZE], gn_surface surface, uint8_t receiver, uint8_t reconstruction)
+{
+    good[33] = 1;
+    good[36] = (uint8_t)surface;
+    good[37] = GN_BIAS_TEXELS;
+    good[39] = receiver;
+    put(good + 40, 2 << 16), put(good + 44, 2 << 16);
+    good[48] = reconstruction;
 }
 
 int main(int argc, char **argv)
 {
+    static const uint8_t surfaces[] = {GN_SLOPE, GN_MIXED, GN_CONSTANT, GN_SECOND, GN_DUAL, GN_MIDPOINT};
     uint8_t good[GOOD_SIZE];
     size_t size = make_good(good);
-    return fuzz_run("changed_packed_scenes_never_crash_the_reader", good, size, tap_cases(argc, argv, 20000));
+    uint64_t cases = tap_cases(argc, argv, 20000);
+    fuzz_run("changed_packed_scenes_never_crash_the_reader", good, size, cases);
+    for (uint8_t i = 0; i < 6; i++) {
+        choose(good, surfaces[i], i % 4, i);
+        fuzz_run("nor_do_those_with_a_method", good, size, cases / 6);
+    }
+    ok(drawn > cases / 10, "many_of_them_are_rendered");
+    return tap_done();
 }
 #endif

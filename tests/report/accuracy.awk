@@ -7,10 +7,12 @@ BEGIN {
 
 /^scene,/ { next }
 
+# A line of figures.csv; with any, every cell needs its own.
 /,/ {
     split($0, field, ",")
     if (field[2] == "none")
         reference[field[1], field[3], field[4]] = field[7]
+    compared = 1
     next
 }
 
@@ -37,54 +39,67 @@ function mean(values, map, name,    s, sum) {
     return sum / scene_count
 }
 
+function signed(difference,    text) {
+    text = sprintf("%+.3f", difference)
+    return text == "-0.000" ? "+0.000" : text
+}
+
+# Compare the scenes' cells with their bars; keep the worst of a method.
+function compare(map, name,    s, key, difference, share) {
+    for (s = 1; s <= scene_count; s++) {
+        key = scene[s] SUBSEP map SUBSEP name
+        if (!(key in reference)) {
+            print "no reference for " scene[s] ", map " map ", " name >"/dev/stderr"
+            exit 2
+        }
+        difference = total[key] - reference[key]
+        share = difference / larger(0.05, 0.04 * reference[key])
+        if (share > 1) {
+            over[key] = 1
+            over_count++
+        }
+        if (share > worst_share) {
+            worst_share = share
+            worst = sprintf("%s %d %s, %.0f %%", scene[s], map, signed(difference), 100 * share)
+        }
+    }
+}
+
 END {
     if (!scene_count) {
         print "no results" >"/dev/stderr"
         exit 2
     }
-    compared = (scene[1], size[1], method[1]) in reference
 
-    print "Mean over the " scene_count " scenes, per cent of the pixels that see a surface:"
+    print "Mean over the " scene_count " scenes, per cent of the pixels that see a surface: false shadow + false light = " \
+        "total" (compared ? " (difference to double precision)" : "") "; by size of the map:"
     print ""
-    line = "| method | map | false shadow | false light | total |"
-    rule = "|---|---|---|---|---|"
-    if (compared) {
-        line = line " double precision | difference | worst scene: difference, share of what is allowed |"
-        rule = rule "---|---|---|"
+    line = "| method |"
+    rule = "|---|"
+    for (z = 1; z <= size_count; z++) {
+        line = line " " size[z] " |"
+        rule = rule "---|"
     }
-    print line
-    print rule
-    for (m = 1; m <= method_count; m++)
+    print line (compared ? " worst cell: difference, share of what is allowed |" : "")
+    print rule (compared ? "---|" : "")
+    for (m = 1; m <= method_count; m++) {
+        line = "| " method[m] " |"
+        worst_share = -1000
         for (z = 1; z <= size_count; z++) {
-            line = sprintf("| %s | %s | %.3f | %.3f | %.3f |", method[m], size[z], mean(shadow, size[z], method[m]),
-                           mean(light, size[z], method[m]), mean(total, size[z], method[m]))
+            ours = mean(total, size[z], method[m])
+            line = line sprintf(" %.2f + %.2f = %.3f", mean(shadow, size[z], method[m]), mean(light, size[z], method[m]),
+                                ours)
             if (compared) {
-                worst_share = -1000
-                for (s = 1; s <= scene_count; s++) {
-                    key = scene[s] SUBSEP size[z] SUBSEP method[m]
-                    if (!(key in reference)) {
-                        print "no reference for " scene[s] ", map " size[z] ", " method[m] >"/dev/stderr"
-                        exit 2
-                    }
-                    difference = total[key] - reference[key]
-                    share = difference / larger(0.05, 0.04 * reference[key])
-                    if (share > 1) {
-                        over[key] = 1
-                        over_count++
-                    }
-                    if (share > worst_share) {
-                        worst_share = share
-                        worst = sprintf("%s %+.3f, %.0f %%", scene[s], difference, 100 * share)
-                    }
-                }
-                ours = mean(total, size[z], method[m])
+                compare(size[z], method[m])
                 theirs = mean(reference, size[z], method[m])
                 mark = ours > theirs * 1.03 + 0.01 ? " **over**" : ""
                 over_count += mark != ""
-                line = line sprintf(" %.3f | %+.3f%s | %s |", theirs, ours - theirs, mark, worst)
+                line = line " (" signed(ours - theirs) ")" mark
             }
-            print line
+            line = line " |"
         }
+        print line (compared ? " " worst " |" : "")
+    }
 
     print ""
     print "Per scene, total per cent" (compared ? "; a cell over its bar is bold, with the figure of double precision" : "") ":"

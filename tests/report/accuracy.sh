@@ -2,17 +2,20 @@
 # Compare shadow masks with the truth, for each method, map size and scene, and with the errors that the same methods
 # have in double precision.
 #
-#     tests/report/accuracy.sh GNOMON TRUTH_FOLDER SCENE_FOLDER FIGURES_CSV [SIZE...]
+#     [METHODS='NAME...'] tests/report/accuracy.sh GNOMON TRUTH_FOLDER SCENE_FOLDER FIGURES_CSV [SIZE...]
 #
 # TRUTH_FOLDER holds NAME.pgm for every NAME.scene of SCENE_FOLDER (tests/report/truth.sh makes them). FIGURES_CSV has the
 # columns scene,warp,map,method,false_shadow,false_light,total in per cent; `-` for scenes that have none. SIZEs of the
-# map: 256 512 1024 unless named. CSV=FILE in the environment also writes our figures there, in the same columns.
+# map: 64 128 256 512 1024 unless named. METHODS: names of tests/report/methods.sh; those of docs/accuracy.md unless
+# named. CSV=FILE in the environment also writes our figures there, in the same columns.
 #
 # Prints Markdown. Exit status: 0 all within the bar, 1 a cell or a mean is over it, 2 something could not be done.
 # The bar of a cell: the csv's total + max(0.05 points, 4 % of it); of a mean over the scenes: the csv's x 1.03 + 0.01.
 set -eu
 
 here=$(dirname "$0")
+# shellcheck source=SCRIPTDIR/methods.sh
+. "$here/methods.sh"
 
 if [ $# -lt 4 ]; then
     echo "usage: tests/report/accuracy.sh GNOMON TRUTH_FOLDER SCENE_FOLDER FIGURES_CSV|- [SIZE...]" >&2
@@ -23,24 +26,10 @@ truth=$2
 scenes=$3
 figures=$4
 shift 4
-sizes=${*:-256 512 1024}
+sizes=${*:-64 128 256 512 1024}
 
-methods='const:0.02 mid midc dual:0.02 dualc:0.02 sd2 sdf sdm:2'
-
-# The options of a method of the table.
-options() {
-    case $1 in
-    const:*) echo "--virtual-surface constant --bias ${1#const:}r --layers first --cull none" ;;
-    constt:*) echo "--virtual-surface constant --bias ${1#constt:}t --layers first --cull none" ;;
-    mid) echo "--virtual-surface midpoint --layers two --cull none" ;;
-    midc) echo "--virtual-surface midpoint --layers two --cull back" ;;
-    dual:*) echo "--virtual-surface dual --bias ${1#dual:}r --layers two --cull none" ;;
-    dualc:*) echo "--virtual-surface dual --bias ${1#dualc:}r --layers two --cull back" ;;
-    sd2) echo "--virtual-surface second --layers two --cull none" ;;
-    sdf) echo "--virtual-surface second --layers first --cull front" ;;
-    sdm:*) echo "--virtual-surface mixed --bias ${1#sdm:}t --layers two --cull none" ;;
-    esac
-}
+methods=${METHODS:-const:0.02 mid midc dual:0.02 dualc:0.02 sd2 sdf sdm:2 sd2+v3 sdf+v3 sdm:2+v3 dualct:2+v3 rpb:1:0.0005 \
+    slope:2:0.0005 first:1e-4+v3}
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -59,8 +48,7 @@ for scene in "$scenes"/*.scene; do
     for size in $sizes; do
         for method in $methods; do
             # shellcheck disable=SC2046 # the options are words
-            "$gnomon" render "$scene" --map "$size" $(options "$method") --parameterise uniform --receiver point \
-                --reconstruct nearest --mask "$work/mask.pgm" >/dev/null || exit 2
+            "$gnomon" render "$scene" --map "$size" $(method_options "$method") --mask "$work/mask.pgm" >/dev/null || exit 2
             status=0
             "$gnomon" compare "$work/mask.pgm" "$truth/$name.pgm" --json "$work/compare.json" >/dev/null || status=$?
             [ $status -le 1 ] || exit 2

@@ -1,0 +1,68 @@
+#include "choices.h"
+
+#include <assert.h>
+
+#define TABLE(values)                                                                                                  \
+    {                                                                                                                  \
+        values, sizeof values / sizeof *values                                                                         \
+    }
+
+static const choice shadows[] = {{"map", "GN_SHADOW_MAP", 0}, {"volumes", "GN_SHADOW_VOLUMES", 0}};
+
+static const choice culls[] = {
+    {"auto", "GN_CULL_AUTO", 0},
+    {"none", "GN_CULL_NONE", 0},
+    {"back", "GN_CULL_BACK", 0},
+    {"front", "GN_CULL_FRONT", 0},
+};
+
+static const choice layers[] = {
+    {"auto", "GN_LAYERS_AUTO", 0},
+    {"first", "GN_LAYERS_FIRST", 0},
+    {"two", "GN_LAYERS_TWO", 0},
+};
+
+static const choice surfaces[] = {
+    {"constant", "GN_CONSTANT", 0}, {"midpoint", "GN_MIDPOINT", 0}, {"dual", "GN_DUAL", 0},
+    {"second", "GN_SECOND", 0},     {"mixed", "GN_MIXED", 0},       {"slope", "GN_SLOPE", 0},
+};
+
+static const choice bias_units[] = {
+    {"world", "GN_BIAS_WORLD", 0},
+    {"texels", "GN_BIAS_TEXELS", 0},
+    {"range", "GN_BIAS_RANGE", 0},
+};
+
+static const choice receivers[] = {
+    {"point", "0", 0},
+    {"plane-bias", "&gn_plane_bias", &gn_plane_bias},
+    {"virtual", "&gn_virtual", &gn_virtual},
+    {"virtual-always", "&gn_virtual_always", &gn_virtual_always},
+};
+
+static const choice reconstructions[] = {
+    {"nearest", "0", 0},
+    {"bilinear", "&gn_bilinear", &gn_bilinear},
+    {"jitter4x4", "&gn_jitter_4x4", &gn_jitter_4x4},
+    {"pcf3", "&gn_box_3x3", &gn_box_3x3},
+    {"pcf5", "&gn_box_5x5", &gn_box_5x5},
+    {"pcf7", "&gn_box_7x7", &gn_box_7x7},
+};
+
+const choices choices_shadow = TABLE(shadows), choices_cull = TABLE(culls), choices_layers = TABLE(layers),
+              choices_surface = TABLE(surfaces), choices_bias_unit = TABLE(bias_units),
+              choices_receiver = TABLE(receivers), choices_reconstruction = TABLE(reconstructions);
+
+int choices_number(const choices *of, const void *object)
+{
+    int number = 0;
+    while (number < of->count && of->all[number].object != object)
+        number++;
+    assert(number < of->count);
+    return number;
+}
+
+int choices_use_slope(const gn_settings *settings)
+{
+    return settings->surface == GN_SLOPE || settings->receiver == &gn_plane_bias;
+}

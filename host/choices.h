@@ -1,0 +1,34 @@
+/* What settings choose from: each value's word on the command line, in statistics and messages, its identifier in C,
+ * and, for what the core links by name, its object.
+ *
+ * A value's number is its place in the table: the core's enumerator, and what stands in a .gno file. So a table only
+ * grows at its end.
+ */
+#ifndef CHOICES_H
+#define CHOICES_H
+
+#include "gnomon.h"
+
+typedef struct choice {
+    const char *word;
+    const char *identifier; /* as an initialiser in a C header */
+    const void *object;     /* of receivers and reconstructions; 0: what the core does where none is named */
+} choice;
+
+typedef struct choices {
+    const choice *all;
+    int count;
+} choices;
+
+enum { CHOICES_MOST = 8 }; /* no table is longer */
+
+extern const choices choices_shadow, choices_cull, choices_layers, choices_surface, choices_bias_unit;
+extern const choices choices_receiver, choices_reconstruction;
+
+/* The number of the object, which must be one of them. */
+int choices_number(const choices *of, const void *object);
+
+/* Is settings->slope of use: for the virtual surface, for the receiver, or for both? */
+int choices_use_slope(const gn_settings *settings);
+
+#endif

@@ -1,0 +1,3 @@
+/* The job of footprint.c with virtual samples. */
+#define FOOTPRINT_RECEIVER (&gn_virtual)
+#include "footprint.c"

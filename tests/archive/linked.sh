@@ -1,0 +1,54 @@
+#!/bin/sh
+# What is not used is not linked: functions that the programs of port/footprint/ hold, and do not hold.
+. tests/tap.sh
+
+# has PROGRAM NAME...
+has() {
+    program=$1
+    shift
+    for name; do
+        arm-none-eabi-nm "$BUILD/cortex-m4-16/footprint/$program.elf" | grep -qw "$name" || {
+            echo "$program does not hold $name"
+            return 1
+        }
+    done
+}
+
+# lacks PROGRAM NAME...
+lacks() {
+    program=$1
+    shift
+    for name; do
+        if has "$program" "$name" >/dev/null; then
+            echo "$program holds $name"
+            return 1
+        fi
+    done
+}
+
+cascade='gn_cascade_row gn_find_points'
+planes='gn_find_plane gn_virtual gn_plane_bias'
+filters='gn_colour_fractions gn_bilinear gn_jitter_4x4 gn_box_5x5'
+
+# Each name is held by some program, so that none is misspelt.
+# shellcheck disable=SC2086 # words
+{
+    check "a program with points and the nearest texel alone holds the test of a row" has footprint gn_shade_row
+    check "and no cascade, no planes, no filters" lacks footprint $cascade $planes $filters
+    check "one with virtual samples holds cascade and planes" has footprint_virtual $cascade gn_find_plane gn_virtual
+    check "and no filters" lacks footprint_virtual $filters
+    check "one with a plane bias holds cascade and planes" has footprint_plane_bias $cascade gn_find_plane gn_plane_bias
+    check "and neither virtual samples nor filters" lacks footprint_plane_bias gn_virtual $filters
+    for filter in bilinear:gn_bilinear jitter:gn_jitter_4x4 box:gn_box_5x5; do
+        program=footprint_${filter%:*} name=${filter#*:}
+        check "one with ${filter%:*} filter holds cascade and fractions" has $program $cascade gn_colour_fractions $name
+        check "and no planes" lacks $program $planes
+        check "and no other filter" lacks $program $(echo "$filters" | sed "s/gn_colour_fractions//; s/$name//")
+    done
+    check "one with virtual samples and a filter holds both" \
+        has footprint_virtual_box $cascade gn_find_plane gn_virtual gn_colour_fractions gn_box_5x5 gn_light_pass
+    check "and no shadow volumes" lacks footprint_virtual_box gn_volumes_pass
+    check "one with shadow volumes holds them" has footprint_volumes gn_volumes_pass
+    check "and nothing of maps" lacks footprint_volumes gn_shade_row gn_light_pass $cascade $planes $filters
+}
+finish

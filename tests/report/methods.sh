@@ -1,0 +1,54 @@
+# shellcheck shell=sh
+# The options of `gnomon render` that make a method of the accuracy tables; for scripts of this folder to read with `.`.
+#
+# Names: those of figures.csv (docs/accuracy.md says what they mean). Behind plus signs a receiver (`+v3` virtual samples
+# where the texels about the point disagree, `+always` at every pixel) and a reconstruction (`+bilinear`, `+jitter4x4`,
+# `+pcf3` and so on). Any other word is a preset: --method WORD.
+
+# surface_options NAME: of what stands before the first plus sign. Nothing for a preset.
+surface_options() {
+    numbers=${1#*:}
+    case $1 in
+    const:*) echo "--virtual-surface constant --bias ${numbers}r --layers first --cull none" ;;
+    constt:*) echo "--virtual-surface constant --bias ${numbers}t --layers first --cull none" ;;
+    slope:*) echo "--virtual-surface slope --slope ${numbers%:*} --bias ${numbers#*:}r --layers first --cull none" ;;
+    rpb:*) echo "--virtual-surface constant --slope ${numbers%:*} --bias ${numbers#*:}r --layers first --cull none" ;;
+    first:*) echo "--virtual-surface constant --bias ${numbers}r --layers first --cull none" ;;
+    mid) echo "--virtual-surface midpoint --layers two --cull none" ;;
+    midc) echo "--virtual-surface midpoint --layers two --cull back" ;;
+    dual:*) echo "--virtual-surface dual --bias ${numbers}r --layers two --cull none" ;;
+    dualc:*) echo "--virtual-surface dual --bias ${numbers}r --layers two --cull back" ;;
+    dualct:*) echo "--virtual-surface dual --bias ${numbers}t --layers two --cull back" ;;
+    sd2) echo "--virtual-surface second --layers two --cull none" ;;
+    sdf) echo "--virtual-surface second --layers first --cull front" ;;
+    sdm:*) echo "--virtual-surface mixed --bias ${numbers}t --layers two --cull none" ;;
+    esac
+}
+
+# receiver_of NAME
+receiver_of() {
+    case $1 in
+    *+v3*) echo virtual ;;
+    *+always*) echo virtual-always ;;
+    rpb:*) echo plane-bias ;;
+    *) echo point ;;
+    esac
+}
+
+# reconstruction_of NAME
+reconstruction_of() {
+    case $1 in
+    *+bilinear | *+jitter4x4 | *+pcf?) echo "${1##*+}" ;;
+    *) echo nearest ;;
+    esac
+}
+
+# method_options NAME
+method_options() {
+    surface=$(surface_options "${1%%+*}")
+    if [ -n "$surface" ]; then
+        echo "$surface --receiver $(receiver_of "$1") --reconstruct $(reconstruction_of "$1") --parameterise uniform"
+    else
+        echo "--method $1"
+    fi
+}

@@ -1,0 +1,51 @@
+# shellcheck shell=sh
+# Frames, their figures, and pictures made of them; for scripts of this folder to read with `.`. They set:
+#
+#     build     the folder of `make BUILD=... all`, with OpenImageIO
+#     work      a folder for what is in between: scenes, NAME.pgm the truth of NAME.scene
+#     folder    where finished pictures go
+
+# build_program NAME OUT: tests/report/NAME.c with the core and the simulator, but for its main. At the top of the project.
+build_program() {
+    ${MAKE:-make} --no-print-directory -s BUILD="$build" "$build/objects/host-16/tests/report/$1.o" >/dev/null
+    objects=$(ls "$build"/objects/host-16/core/*.o "$build"/objects/host-16/host/*.o | grep -v '/main\.o$')
+    # shellcheck disable=SC2046,SC2086 # words: no folder of ours has blanks
+    ${CC:-cc} -pthread "$build/objects/host-16/tests/report/$1.o" $objects $(pkg-config --libs OpenImageIO) -lstdc++ -lm \
+        -o "$2"
+}
+
+# figures MASK TRUTH: false shadow + false light in per cent of the surface, mean absolute error in per cent.
+figures() {
+    "$build/gnomon" compare "$1" "$2" --difference "$work/difference.png" --json "$work/figures.json" >/dev/null ||
+        [ $? -eq 1 ]
+    awk -F '[:,]' '!done && /"false_shadow_percent"/ { shadow = $2 } !done && /"false_light_percent"/ { light = $2 }
+        !done && /"mean_absolute_error"/ { printf "%.3f + %.3f; mean absolute error %.3f\n", shadow, light, 100 * $2
+            done = 1 }' "$work/figures.json"
+}
+
+# shot NAME SCENE OPTION...: NAME.png, NAME.mask.pgm and NAME.difference.png of the work folder; one line of figures.
+shot() {
+    name=$1
+    scene=$2
+    shift 2
+    "$build/gnomon" render "$work/$scene.scene" "$@" -o "$work/$name.png" --mask "$work/$name.mask.pgm"
+    printf '%-14s %-70s %s\n' "$scene" "$*" "$(figures "$work/$name.mask.pgm" "$work/$scene.pgm")"
+    mv "$work/difference.png" "$work/$name.difference.png"
+}
+
+# join OUT COLUMNS PICTURE[@PART]...: OUT.png of the folder, from pictures of the work folder (mosaic.c).
+join() {
+    out=$1
+    columns=$2
+    shift 2
+    parts=
+    for part; do
+        case $part in
+        *@*) parts="$parts $work/${part%@*}.png@${part#*@}" ;;
+        *) parts="$parts $work/$part.png" ;;
+        esac
+    done
+    # shellcheck disable=SC2086 # words; the folder is mktemp's
+    "$work/mosaic" "$work/$out.png" "$columns" $parts
+    mv "$work/$out.png" "$folder/$out.png"
+}
