@@ -112,7 +112,7 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
             at_once(context, &lookup, &points, q);
         else
             vote(context, worker, how, &lookup, &points, q);
-        if (receiver && receiver->resample)
+        if (receiver && receiver->resample && (points.open_count || !receiver->votes))
             receiver->resample(context, worker, &lookup, &points, how->sample);
 #if GN_STATISTICS
         count_stages(context, worker, &points, how);

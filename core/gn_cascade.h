@@ -15,7 +15,7 @@
 
 /* Points of a block, at most 256. Trades stack against the cost of starting a block; never changes a pixel. */
 #ifndef GN_BLOCK
-#define GN_BLOCK 128
+#define GN_BLOCK 96
 #endif
 
 #define GN_NOWHERE 0x80000000u /* u of a point that the map does not hold: z 0 lit, else, the farthest, shadowed */

@@ -6,7 +6,7 @@
 
 enum { CELLS = 4, WHOLE = CELLS * CELLS };
 
-/* Bayer's ordered dither: neighbours are far apart in value, every row and column is balanced. In 1/16 cell, + 1/32. */
+/* Bayer's ordered dither: neighbours are far apart in value; every pixel uses all 16. In 1/16 cell, + 1/32. */
 static const uint8_t matrix[CELLS][CELLS] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
 
 /* The texel of a place along one axis: cells begin two texels before the point. */

@@ -26,18 +26,23 @@ static void move_nearer(const gn_context *context, gn_worker *worker, gn_points 
         points->z[i] = points->z[i] > GN_POINT_ERROR ? points->z[i] - GN_POINT_ERROR : 0;
 }
 
-/* Whether the four texels at a place agree on a depth that was cut. A place in the border's outer half texel has the
- * four that are nearest; they lie to one side of it and cannot tell that it is shadowed: a convex surface may be behind
- * all. */
+/* At the border: the four texels that are nearest lie to one side of a place in the outer half texel and cannot tell
+ * that it is shadowed: a convex surface may be behind all of them. */
+static GN_NOINLINE uint32_t look_at_border(const gn_lookup *l, uint32_t column, uint32_t row, uint32_t z)
+{
+    column = column < l->last_column ? column : column >= GN_MAX_SIZE ? 0 : l->last_column - 1;
+    row = row < l->last_row ? row : row >= GN_MAX_SIZE ? 0 : l->last_row - 1;
+    const gn_depth *above = l->map + row * l->stride + column;
+    return agree(above, above + l->stride, z) ? OPEN : 0;
+}
+
+/* Whether the four texels at a place agree on a depth that was cut. */
 GN_INLINE uint32_t look(const gn_lookup *l, uint32_t column, uint32_t row, uint32_t z)
 {
     const gn_depth *above = l->map + row * l->stride + column;
-    if (GN_LIKELY(column < l->last_column && row < l->last_row))
-        return agree(above, above + l->stride, z);
-    column = column < l->last_column ? column : column >= GN_MAX_SIZE ? 0 : l->last_column - 1;
-    row = row < l->last_row ? row : row >= GN_MAX_SIZE ? 0 : l->last_row - 1;
-    above = l->map + row * l->stride + column;
-    return agree(above, above + l->stride, z) ? OPEN : 0;
+    if (GN_UNLIKELY(column >= l->last_column || row >= l->last_row))
+        return look_at_border(l, column, row, z);
+    return agree(above, above + l->stride, z);
 }
 
 static void vote_around(const gn_lookup *lookup, gn_points *points)
@@ -59,6 +64,12 @@ static void vote_around(const gn_lookup *lookup, gn_points *points)
 GN_INLINE uint32_t cut_raw(uint32_t z, uint32_t bits)
 {
     return GN_DEPTH_BITS == 16 ? z >> bits : z << (16 - bits);
+}
+
+/* Negative where a depth that was cut is behind a stored one. */
+GN_INLINE uint32_t compare(uint32_t z, gn_depth stored)
+{
+    return GN_DEPTH_BITS == 16 ? stored - z : z <= stored ? 0 : GN_DARK;
 }
 
 /* The place of a pixel whose W was w. */
@@ -109,12 +120,14 @@ static void vote_sunlit(const gn_context *context, const gn_lookup *lookup, gn_p
     do {
         uint32_t depth = cut_raw(z_a + gn_w_product(*at++, z_b), depth_bits);
         const gn_depth *above = map + *place++, *below = above + stride;
+        uint32_t first = compare(depth, above[0]);
         z_b += z_dx;
-        uint32_t vote = agree(above, below, depth);
-        if (GN_UNLIKELY(vote == OPEN))
-            points->open[points->open_count++] = (uint8_t)(at - q - 1);
+        int open = (int32_t)first >= 0 ? depth > above[1] || depth > below[0] || depth > below[1]
+                                       : depth <= above[1] || depth <= below[0] || depth <= below[1];
+        if (GN_UNLIKELY(open))
+            points->open[points->open_count++] = (uint8_t)(place - points->z - 1);
         else
-            at[-1] = vote;
+            at[-1] = first;
     } while (at != end);
     points->row[2].b = z_b;
     for (int32_t n = 0; n < points->open_count; n++)

@@ -236,7 +236,7 @@ typedef enum gn_surface {
 
 /* The receiver: the depth with which a pixel is compared. Each is linked only where it is named; none (0): the depth
  * of the pixel's own point. All but that take the plane of the triangle that the pixel sees, as the light pass draws
- * it: 32 bytes an entry of GN_COLOUR_CACHE and worker. docs/shadow-test.md. */
+ * it: 40 bytes an entry of GN_COLOUR_CACHE and worker. docs/shadow-test.md. */
 typedef struct gn_receiver gn_receiver;
 extern const gn_receiver gn_plane_bias; /* the point's depth less settings.slope times half a texel of its plane's slope
                                          */
@@ -286,7 +286,8 @@ typedef struct gn_settings {
     const gn_reconstruction *reconstruction; /* 0: the nearest texel. The same */
 } gn_settings;
 
-/* Second depth with everything else left to gn_make_plan: no bias to choose for closed meshes. */
+/* Second depth, the point, the nearest texel, everything else left to gn_make_plan and no bias: the least that a scene
+ * of closed meshes needs. With settings.receiver = &gn_virtual it is Wang & Molnar's. */
 gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_size);
 
 typedef struct gn_plan {
@@ -379,12 +380,13 @@ typedef struct gn_statistics {
     uint64_t camera_triangles; /* set up in the camera pass, each region counted */
     uint64_t camera_fragments; /* covered by them */
     uint64_t pixels_shaded;    /* pixels that see a surface */
-    uint64_t pixels_tested;    /* of them: turned to the light: looked up in the map, or counted in volumes */
-    /* of pixels_tested, with a receiver or a reconstruction: how far down the cascade of docs/shadow-test.md */
+    uint64_t pixels_tested;    /* of them, turned to the light: looked up in the map, or counted in volumes */
+    /* With a receiver or a reconstruction, how far down the cascade of docs/shadow-test.md: outside, agreed and virtual
+     * make up pixels_tested, but for fractions by a point's own depth. */
     uint64_t pixels_outside;               /* of the light's box or frustum: no texel read */
     uint64_t pixels_agreed;                /* all texels agreed on the point's depth */
-    uint64_t pixels_virtual;               /* decided by virtual samples: all agreed, or the one that counts */
-    uint64_t pixels_fractional;            /* partly lit */
+    uint64_t pixels_virtual;               /* decided by virtual samples */
+    uint64_t pixels_fractional;            /* partly lit, by whatever samples */
     uint64_t texels_read, virtual_samples; /* depths compared in all; of them with virtual samples */
     uint64_t silhouette_edges;             /* of the latest gn_volumes_light */
     uint64_t volume_faces;                 /* set up in the camera pass, each region counted */

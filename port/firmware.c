@@ -27,12 +27,16 @@ typedef struct golden_scene {
     const gn_scene *scene;
     const gn_camera *camera;
     const gn_light *light;
+    int many_triangles;
 } golden_scene;
 
 static const golden_scene scenes[] = {
-    {"lshape", &lshape_scene, &lshape_camera, &lshape_light}, {"torus2", &torus2_scene, &torus2_camera, &torus2_light},
-    {"table", &table_scene, &table_camera, &table_light},     {"pipes", &pipes_scene, &pipes_camera, &pipes_light},
-    {"pins", &pins_scene, &pins_camera, &pins_light},         {"fence", &fence_scene, &fence_camera, &fence_light},
+    {"lshape", &lshape_scene, &lshape_camera, &lshape_light, 0},
+    {"torus2", &torus2_scene, &torus2_camera, &torus2_light, 0},
+    {"table", &table_scene, &table_camera, &table_light, 0},
+    {"pipes", &pipes_scene, &pipes_camera, &pipes_light, 1},
+    {"pins", &pins_scene, &pins_camera, &pins_light, 0},
+    {"fence", &fence_scene, &fence_camera, &fence_light, 0},
 };
 
 /* A scene as it was packed; or MOVED: seen by an orthographic camera, its last object turned and mirrored by a model
@@ -340,7 +344,7 @@ static gn_light moved_light;
 static golden_scene move(const golden_scene *golden, const method *by)
 {
     static const int32_t axis[3] = {1, 3, 2}, down[3] = {0, -1, 0};
-    golden_scene moved = {golden->name, &moved_scene, &moved_camera, &moved_light};
+    golden_scene moved = {golden->name, &moved_scene, &moved_camera, &moved_light, golden->many_triangles};
     gn_light sun = {0};
     moved_scene = *golden->scene;
     moved_camera = *golden->camera;
@@ -465,12 +469,20 @@ static size_t render_method(const golden_scene *packed, const method *by)
     return whole.plan_bytes > parts.plan_bytes ? whole.plan_bytes : parts.plan_bytes;
 }
 
+/* What tests pixels in a way of its own does so in five scenes: the sixth would double the time of slow targets. */
+static int is_left_out(const golden_scene *golden, const method *by)
+{
+    return golden->many_triangles && (by->receiver || by->reconstruction || by->surface == GN_SLOPE);
+}
+
 int main(void)
 {
     size_t most_bytes = 0;
     for (size_t s = 0; s < COUNT(scenes); s++) {
         write_hash_line(scenes[s].name, "set-up", "axes", hash_axes(&scenes[s]));
         for (size_t m = 0; m < COUNT(methods); m++) {
+            if (is_left_out(&scenes[s], &methods[m]))
+                continue;
             size_t bytes = render_method(&scenes[s], &methods[m]);
             most_bytes = bytes > most_bytes ? bytes : most_bytes;
         }

@@ -1,7 +1,8 @@
 /* The two layers are the two nearest depths of all triangles over a texel's centre, as a multiset; nothing else about
  * the scene's order, regions or workers matters. Brute force: every triangle at every texel, by edge functions and
- * planes in 64 and 128 bits from the vertices as projected, all depths of a texel sorted. Then every virtual surface
- * and every unit of bias, worked out by hand. Cases: 8000 scenes, or GNOMON_CASES. */
+ * planes in 64 and 128 bits from the vertices as projected, all depths of a texel sorted; beside them the least depth
+ * plus half a texel of its slope. Then every virtual surface and every unit of bias, worked out by hand. Cases: 8000
+ * scenes, or GNOMON_CASES. */
 #include "gn_clip.h"
 #include "scenes.h"
 
@@ -35,7 +36,7 @@ static uint64_t leading_32(exact_u v, int *exponent)
     return (uint64_t)v;
 }
 
-/* round(512 n / A) as gn_raster.h defines it. */
+/* round(512 n / A) as gn_raster.h defines it; enormous where it may reach 2^40. */
 static exact gradient(exact n, exact area)
 {
     int n_exponent, a_exponent;
@@ -45,27 +46,48 @@ static exact gradient(exact n, exact area)
     exact g = (exact)(((exact_u)m * ((uint64_t)INT64_MAX / a)) >> 32);
     int exponent = n_exponent - a_exponent - 31 + 9;
     if (exponent >= 0)
-        g = exponent > 60 ? (exact)1 << 100 : g << exponent;
+        g = exponent > 8 ? (exact)1 << 100 : g << exponent; /* the quotient has 32 bits */
     else
         g = exponent < -40 ? 0 : (g + ((exact)1 << (-exponent - 1))) >> -exponent;
     return (n < 0) != (area < 0) ? -g : g;
 }
 
-/* 32-bit depth of a triangle's plane at a centre. The first vertex of v anchors the plane. */
-static uint32_t depth_at(const gn_vertex *const v[3], int32_t column, int32_t row)
+/* A triangle's depths without wrapping: base + column gx + row gy. The first vertex of v anchors the plane. */
+typedef struct plane {
+    exact base, gx, gy;
+} plane;
+
+static plane plane_of(const gn_vertex *const v[3])
 {
     exact dx1 = v[1]->x - v[0]->x, dy1 = v[1]->y - v[0]->y, dz1 = (exact)v[1]->depth - v[0]->depth;
     exact dx2 = v[2]->x - v[0]->x, dy2 = v[2]->y - v[0]->y, dz2 = (exact)v[2]->depth - v[0]->depth;
     exact area = dx1 * dy2 - dx2 * dy1;
-    exact gx = gradient(dz1 * dy2 - dz2 * dy1, area), gy = gradient(dz2 * dx1 - dz1 * dx2, area);
-    if (magnitude(gx) >> 30 || magnitude(gy) >> 30) {
-        uint32_t farthest = 0;
+    plane p = {0, gradient(dz1 * dy2 - dz2 * dy1, area), gradient(dz2 * dx1 - dz1 * dx2, area)};
+    if (magnitude(p.gx) >> 40 || magnitude(p.gy) >> 40) { /* the whole range in 1/256 texel: the farthest vertex */
         for (int i = 0; i < 3; i++)
-            farthest = v[i]->depth > farthest ? v[i]->depth : farthest;
-        return 2 * farthest;
+            p.base = 2 * (exact)v[i]->depth > p.base ? 2 * (exact)v[i]->depth : p.base;
+        p.gx = p.gy = 0;
+        return p;
     }
-    exact base = 2 * (exact)v[0]->depth + floor_shift((128 - (exact)v[0]->x) * gx + (128 - (exact)v[0]->y) * gy, 8);
-    return (uint32_t)(exact_u)(base + column * gx + row * gy);
+    p.base = 2 * (exact)v[0]->depth + floor_shift((128 - (exact)v[0]->x) * p.gx + (128 - (exact)v[0]->y) * p.gy, 8);
+    return p;
+}
+
+static uint32_t held(exact z)
+{
+    return z < 0 ? 0 : z > 0xffffffff ? 0xffffffffu : (uint32_t)z;
+}
+
+static uint32_t depth_at(const plane *p, int32_t column, int32_t row)
+{
+    return held(p->base + column * p->gx + row * p->gy);
+}
+
+/* Farther by what the plane rises within half a texel. */
+static uint32_t risen_at(const plane *p, int32_t column, int32_t row)
+{
+    exact half = (magnitude(p->gx) + magnitude(p->gy)) / 2;
+    return held((exact)depth_at(p, column, row) + held(half));
 }
 
 static int64_t area_of(const gn_vertex *const v[3])
@@ -92,8 +114,9 @@ static int owns(const gn_vertex *const corner[3], int32_t column, int32_t row)
     return 1;
 }
 
+/* least: of depths with half a texel's slope. */
 typedef struct texel {
-    gn_depth z1, z2;
+    gn_depth z1, z2, least;
 } texel;
 
 static void insert(texel *t, gn_depth v)
@@ -124,12 +147,18 @@ static int is_culled(const gn_context *context, const gn_object *object, int64_t
     return context->plan.cull == GN_CULL_BACK ? !front : context->plan.cull == GN_CULL_FRONT ? front : 0;
 }
 
-/* Both layers of a map, from the vertices of the light pass that has begun. */
-static void find_layers(const gn_context *context, texel *layers)
+static gn_depth least(gn_depth a, gn_depth b)
 {
+    return a < b ? a : b;
+}
+
+/* Both layers of a map, from the vertices of the light pass that has begun. Returns the number of steep triangles. */
+static uint64_t find_layers(const gn_context *context, texel *layers)
+{
+    uint64_t steep = 0;
     const gn_settings *s = &context->settings;
     for (int32_t i = 0; i < s->map_width * s->map_height; i++)
-        layers[i].z1 = layers[i].z2 = EMPTY;
+        layers[i].z1 = layers[i].z2 = layers[i].least = EMPTY;
     for (uint32_t o = 0; o < context->scene->object_count; o++) {
         const gn_object *object = &context->scene->objects[o];
         const gn_vertex *vertices = context->vertices + context->objects[o].first_vertex;
@@ -140,26 +169,30 @@ static void find_layers(const gn_context *context, texel *layers)
             int64_t area = area_of(v);
             if (area == 0 || is_culled(context, object, area))
                 continue;
+            plane p = plane_of(v);
+            steep += magnitude(p.gx) >> 30 || magnitude(p.gy) >> 30;
             for (int32_t row = 0; row < s->map_height; row++) {
                 for (int32_t column = 0; column < s->map_width; column++) {
                     if (!owns(v, column, row))
                         continue;
-                    gn_depth z = (gn_depth)(depth_at(v, column, row) >> (32 - GN_DEPTH_BITS));
+                    gn_depth z = (gn_depth)(depth_at(&p, column, row) >> (32 - GN_DEPTH_BITS));
                     if (s->surface == GN_MIXED)
                         z = (gn_depth)((z | 1) - object->mesh->closed);
                     texel *at = &layers[row * s->map_width + column];
                     insert(at, z);
+                    at->least = least(at->least, (gn_depth)(risen_at(&p, column, row) >> (32 - GN_DEPTH_BITS)));
                     if (s->surface == GN_SECOND && context->plan.layers == GN_LAYERS_TWO && !object->mesh->closed)
                         insert(at, z);
                 }
             }
         }
     }
+    return steep;
 }
 
-static gn_depth least(gn_depth a, gn_depth b)
+static gn_depth farther_by(gn_depth z, uint64_t bias)
 {
-    return a < b ? a : b;
+    return (gn_depth)(bias > (uint64_t)EMPTY - z ? EMPTY : z + bias);
 }
 
 /* The virtual surface of the two layers, as gnomon.h has it. */
@@ -169,13 +202,15 @@ static gn_depth surface_of(const gn_context *context, texel t)
     gn_depth half = (gn_depth)(((uint64_t)t.z2 - t.z1) / 2);
     switch (context->settings.surface) {
     case GN_CONSTANT:
-        return (gn_depth)((uint64_t)t.z1 + bias > EMPTY ? EMPTY : t.z1 + bias);
+        return farther_by(t.z1, bias);
     case GN_MIDPOINT:
         return (gn_depth)(t.z1 + half);
     case GN_DUAL:
         return (gn_depth)(t.z1 + least(half, bias));
     case GN_SECOND:
-        return context->plan.layers == GN_LAYERS_TWO ? t.z2 : t.z1;
+        return farther_by(context->plan.layers == GN_LAYERS_TWO ? t.z2 : t.z1, bias);
+    case GN_SLOPE:
+        return farther_by(t.z1, (uint64_t)((exact)(t.least - t.z1) * context->settings.slope / 65536) + bias);
     default:
         return t.z1 & 1 ? (gn_depth)(t.z1 + least(half, bias)) : (gn_depth)(t.z2 | 1);
     }
@@ -234,7 +269,8 @@ static gn_settings random_settings(int32_t width, int32_t height)
         {GN_MIDPOINT, GN_LAYERS_TWO, GN_CULL_BACK},    {GN_DUAL, GN_LAYERS_TWO, GN_CULL_NONE},
         {GN_DUAL, GN_LAYERS_TWO, GN_CULL_BACK},        {GN_SECOND, GN_LAYERS_TWO, GN_CULL_NONE},
         {GN_SECOND, GN_LAYERS_TWO, GN_CULL_BACK},      {GN_SECOND, GN_LAYERS_FIRST, GN_CULL_FRONT},
-        {GN_MIXED, GN_LAYERS_TWO, GN_CULL_NONE},
+        {GN_MIXED, GN_LAYERS_TWO, GN_CULL_NONE},       {GN_SLOPE, GN_LAYERS_FIRST, GN_CULL_NONE},
+        {GN_SLOPE, GN_LAYERS_FIRST, GN_CULL_BACK},     {GN_SLOPE, GN_LAYERS_AUTO, GN_CULL_FRONT},
     };
     const uint8_t *c = choice[between(0, sizeof choice / sizeof choice[0] - 1)];
     gn_settings s = gn_default_settings(4, 4, 1);
@@ -246,10 +282,11 @@ static gn_settings random_settings(int32_t width, int32_t height)
     s.map_rows = (uint16_t)between(0, height);
     s.bias.unit = GN_BIAS_WORLD;
     s.bias.value = (uint32_t)(between(0, 3) ? between(0, 300) : between(0, 70000));
+    s.slope = between(0, 1) ? between(0, 4 << 16) : between(0, 64 << 16);
     return s;
 }
 
-static const char *const surface_names[] = {"constant", "midpoint", "dual", "second", "mixed"};
+static const char *const surface_names[] = {"constant", "midpoint", "dual", "second", "mixed", "slope"};
 
 static void note_case(uint64_t n, const gn_context *c)
 {
@@ -260,7 +297,7 @@ static void note_case(uint64_t n, const gn_context *c)
 
 typedef struct tally {
     unsigned failures;
-    uint64_t covered, empty, ties, two, culled;
+    uint64_t covered, empty, ties, two, steep, sloped;
 } tally;
 
 /* One scene: each region's layers, then its part of the map. */
@@ -279,20 +316,22 @@ static void compare_scene(uint64_t n, tally *count)
     if (!(status == GN_OK) && count->failures++ < 5)
         note("scene %llu: status %d", (unsigned long long)n, (int)status);
     if (status == GN_OK)
-        find_layers(f.context, expected);
+        count->steep += find_layers(f.context, expected);
     for (uint32_t region = 0; status == GN_OK && region < f.plan.light_regions; region++) {
         uint32_t first, rows, stride;
         status = gn_light_layers(f.context, region, 0);
-        for (uint32_t layer = 0; layer < (f.plan.layers == GN_LAYERS_TWO ? 2u : 1u); layer++) {
+        int slope = settings.surface == GN_SLOPE;
+        for (uint32_t layer = 0; layer < (slope || f.plan.layers == GN_LAYERS_TWO ? 2u : 1u); layer++) {
             const gn_depth *got = gn_layer(f.context, layer, region, 0, &first, &rows, &stride);
             for (uint32_t i = 0; i < rows * (uint32_t)width; i++) {
                 uint32_t column = i % (uint32_t)width, row = i / (uint32_t)width;
                 texel e = expected[(first + row) * (uint32_t)width + column];
-                gn_depth z = layer ? e.z2 : e.z1;
+                gn_depth z = layer ? slope ? e.least : e.z2 : e.z1;
                 count->covered += e.z1 != EMPTY;
                 count->empty += e.z1 == EMPTY;
-                count->ties += layer && e.z1 != EMPTY && e.z1 == e.z2;
-                count->two += layer && e.z2 != EMPTY;
+                count->ties += layer && !slope && e.z1 != EMPTY && e.z1 == e.z2;
+                count->two += layer && !slope && e.z2 != EMPTY;
+                count->sloped += layer && slope && e.least != e.z1;
                 if (got[row * stride + column] != z && count->failures++ < 5) {
                     note_case(n, f.context);
                     note("layer %u, texel (%u, %u): got %lu, expected %lu", (unsigned)layer + 1, (unsigned)column,
@@ -308,9 +347,10 @@ static void compare_scene(uint64_t n, tally *count)
         gn_depth z = surface_of(f.context, expected[i]);
         if (got != z && count->failures++ < 5) {
             note_case(n, f.context);
-            note("map, texel (%d, %d): got %lu, expected %lu of z1 %lu, z2 %lu, bias %lu", (int)(i % width),
-                 (int)(i / width), (unsigned long)got, (unsigned long)z, (unsigned long)expected[i].z1,
-                 (unsigned long)expected[i].z2, (unsigned long)f.context->bias);
+            note("map, texel (%d, %d): got %lu, expected %lu of z1 %lu, z2 %lu, least %lu, bias %lu, slope %ld / 65536",
+                 (int)(i % width), (int)(i / width), (unsigned long)got, (unsigned long)z,
+                 (unsigned long)expected[i].z1, (unsigned long)expected[i].z2, (unsigned long)expected[i].least,
+                 (unsigned long)f.context->bias, (long)settings.slope);
         }
     }
     count->failures += status != GN_OK;
@@ -326,9 +366,12 @@ static void layers_are_the_two_nearest(uint64_t cases)
     for (uint64_t n = 0; n < cases && count.failures < 5; n++)
         compare_scene(n, &count);
     ok(!count.failures, "layers and maps equal brute force, in %llu scenes", (unsigned long long)cases);
-    ok(count.covered > 10000 && count.empty > 10000 && count.ties > 500 && count.two > 5000,
-       "%llu covered and %llu empty texels, %llu with two layers, %llu of them ties", (unsigned long long)count.covered,
-       (unsigned long long)count.empty, (unsigned long long)count.two, (unsigned long long)count.ties);
+    ok(count.covered > 10000 && count.empty > 10000 && count.ties > 500 && count.two > 5000 && count.steep > 1000 &&
+           count.sloped > 5000,
+       "%llu covered and %llu empty texels, %llu with two layers, %llu of them ties, %llu with a slope; %llu steep "
+       "triangles",
+       (unsigned long long)count.covered, (unsigned long long)count.empty, (unsigned long long)count.two,
+       (unsigned long long)count.ties, (unsigned long long)count.sloped, (unsigned long long)count.steep);
 }
 
 /* Rounding may turn over a piece of a clipped triangle; it may not make a texel meet the triangle twice. */
@@ -549,69 +592,78 @@ static const by_hand cases_by_hand[] = {
     {"dual: near the end half the gap is less", GN_DUAL, NO_CULL, 200, {{65435, 'o'}}, {65485, 0}},
     {"dual: nothing there", GN_DUAL, NO_CULL, 7, {{0, 0}}, {-1, 0}},
     {"dual culls back faces of itself", GN_DUAL, AUTO, 70, {{100, 'f'}, {110, 'b'}, {400, 'f'}}, {170, 0}},
-    {"second: z2 of closed meshes",
+    {"second: z2 + b of closed meshes",
      GN_SECOND,
      GN_LAYERS_TWO,
      GN_CULL_NONE,
      9,
      {{200, 'b'}, {100, 'f'}, {300, 'f'}},
-     {200, 0}},
+     {209, 0}},
     {"second: an open one is a solid of its own",
      GN_SECOND,
      GN_LAYERS_TWO,
      GN_CULL_NONE,
      9,
      {{100, 'o'}, {200, 'b'}},
-     {100, 0}},
+     {109, 0}},
     {"second: an open one behind a closed front",
      GN_SECOND,
      GN_LAYERS_TWO,
      GN_CULL_NONE,
      9,
      {{100, 'f'}, {150, 'o'}, {200, 'b'}},
-     {150, 0}},
+     {159, 0}},
     {"second: an open one behind both",
      GN_SECOND,
      GN_LAYERS_TWO,
      GN_CULL_NONE,
      9,
      {{100, 'f'}, {350, 'o'}, {200, 'b'}},
-     {200, 0}},
+     {209, 0}},
     {"second: a tie counts twice",
      GN_SECOND,
      GN_LAYERS_TWO,
      GN_CULL_NONE,
      9,
      {{100, 'f'}, {100, 'f'}, {200, 'b'}},
-     {100, 0}},
+     {109, 0}},
     {"second: one closed layer leaves nothing", GN_SECOND, GN_LAYERS_TWO, GN_CULL_NONE, 9, {{100, 'f'}}, {-1, 0}},
-    {"second: nothing there", GN_SECOND, GN_LAYERS_TWO, GN_CULL_NONE, 9, {{0, 0}}, {-1, 0}},
+    {"second: nothing there", GN_SECOND, GN_LAYERS_TWO, GN_CULL_NONE, 9, {{9, 0}}, {-1, 0}},
     {"second: the back layer",
      GN_SECOND,
      GN_LAYERS_FIRST,
      GN_CULL_FRONT,
      9,
      {{100, 'f'}, {200, 'b'}, {300, 'f'}},
-     {200, 0}},
+     {209, 0}},
     {"second: the back layer keeps open ones",
      GN_SECOND,
      GN_LAYERS_FIRST,
      GN_CULL_FRONT,
      9,
      {{100, 'f'}, {150, 'o'}, {200, 'b'}},
-     {150, 0}},
+     {159, 0}},
     {"second of closed meshes chooses the back layer",
      GN_SECOND,
      AUTO,
      9,
      {{100, 'b'}, {50, 'f'}, {60, 'f'}},
-     {100, 0}},
+     {109, 0}},
     {"second of a scene with an open mesh chooses two",
      GN_SECOND,
      AUTO,
      9,
      {{100, 'b'}, {50, 'f'}, {60, 'f'}, {900, 'o'}},
-     {60, 0}},
+     {69, 0}},
+    {"second: no bias", GN_SECOND, GN_LAYERS_TWO, GN_CULL_NONE, 0, {{200, 'b'}, {100, 'f'}, {300, 'f'}}, {200, 0}},
+    {"second: the back layer without a bias", GN_SECOND, AUTO, 0, {{200, 'b'}, {100, 'f'}}, {200, 0}},
+    {"second: saturates at the end of the range", GN_SECOND, GN_LAYERS_TWO, GN_CULL_NONE, 100, {{65500, 'o'}}, {-1, 0}},
+    {"second: the back layer saturates", GN_SECOND, AUTO, 100, {{65500, 'b'}}, {-1, 0}},
+    {"slope of what is level: z1 + b", GN_SLOPE, NO_CULL, 7, {{100, 'o'}, {200, 'o'}}, {107, 0}},
+    {"slope: nothing there", GN_SLOPE, NO_CULL, 7, {{0, 0}}, {-1, 0}},
+    {"slope: saturates at the end of the range", GN_SLOPE, NO_CULL, 100, {{65500, 'o'}}, {-1, 0}},
+    {"slope: back faces culled", GN_SLOPE, GN_LAYERS_AUTO, GN_CULL_BACK, 0, {{100, 'b'}, {200, 'f'}}, {200, 0}},
+    {"slope: front faces culled", GN_SLOPE, GN_LAYERS_AUTO, GN_CULL_FRONT, 0, {{100, 'f'}, {200, 'b'}}, {200, 0}},
 };
 
 /* Other ways to the same map: in y the other way round; both x and y; levels so large that they are clipped. */
@@ -659,6 +711,7 @@ static void render_by_hand(const by_hand *c, variant how)
     s.cull = c->cull;
     s.bias.unit = GN_BIAS_WORLD;
     s.bias.value = c->bias;
+    s.slope = 3 << 15; /* of GN_SLOPE alone */
     gn_status status = frame_start(&f, &scene, &s);
     if (status == GN_OK)
         status = gn_light_pass(f.context, &light);
@@ -802,6 +855,60 @@ static void inclined_planes_by_hand(void)
     shape_free(&s);
 }
 
+/* The same plane, whose h is 24 units, and a level one that cuts through it: m is the lesser of z + 24 and the level
+ * one's depth. */
+static void slopes_by_hand(void)
+{
+    static const struct {
+        gn_q16_16 slope;
+        uint32_t bias;
+    } cases[] = {{0, 0}, {0, 5}, {1 << 15, 0}, {1 << 16, 0}, {3 << 15, 0}, {2 << 16, 3}, {64 << 16, 0}, {1, 0}};
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+        shape incline = shape_new(0), wall = shape_new(0);
+        gn_object objects[2] = {{&incline.mesh, 0, {0, 0, 0}}, {&wall.mesh, 0, {0, 0, 0}}};
+        gn_scene scene = {objects, 2, {0, 0, 0}, 0};
+        frame f;
+        /* 16 units of depth a texel in x, 32 in y: in half units 2 x 10000 + 32 column + 16 + 64 row + 32, y = 0 below
+         */
+        int32_t a[3] = {0, 0, -10512}, b[3] = {4096, 0, -10768}, c[3] = {4096, 4096, -10256}, d[3] = {0, 4096, -10000};
+        enum { LEVEL = 10400 };
+        add_quad(&incline, a, b, c, d);
+        add_level(&wall, 0, 0, 4096, 4096, -LEVEL, 1);
+        gn_settings settings = gn_default_settings(4, 4, 16);
+        gn_light light = grid_light(16, 16);
+        settings.surface = GN_SLOPE;
+        settings.bias.unit = GN_BIAS_WORLD;
+        settings.bias.value = cases[n].bias;
+        settings.slope = cases[n].slope;
+        gn_status status = frame_start(&f, &scene, &settings);
+        if (status == GN_OK)
+            status = gn_light_pass(f.context, &light);
+        unsigned failures = status != GN_OK, by_level = 0, by_incline = 0, behind = 0;
+        for (uint32_t i = 0; i < 256 && status == GN_OK; i++) {
+            uint32_t column = i % 16, row = i / 16;
+            uint64_t unit = 65536, slant = 10000 * unit + (16 * column + 8 + 32 * row + 16) * unit + 32768;
+            uint64_t level_depth = LEVEL * unit + 32768, z1 = slant < level_depth ? slant : level_depth;
+            uint64_t m = slant + 24 * unit < level_depth ? slant + 24 * unit : level_depth;
+            z1 >>= 32 - GN_DEPTH_BITS;
+            m >>= 32 - GN_DEPTH_BITS;
+            by_incline += m != z1 && m != level_depth >> (32 - GN_DEPTH_BITS);
+            by_level += m != z1 && m == level_depth >> (32 - GN_DEPTH_BITS);
+            behind += m == z1;
+            uint64_t expected =
+                z1 + (m - z1) * (uint32_t)cases[n].slope / 65536 + (cases[n].bias * unit >> (32 - GN_DEPTH_BITS));
+            gn_depth got = texel_at(f.context, column, row);
+            if (got != expected && failures++ < 3)
+                note("texel (%u, %u): got %lu, expected %lu of z1 %lu, m %lu", (unsigned)column, (unsigned)row,
+                     (unsigned long)got, (unsigned long)expected, (unsigned long)z1, (unsigned long)m);
+        }
+        ok(!failures && by_level && by_incline && behind && frame_end(&f),
+           "slope %ld / 65536, bias %lu, by hand: m by the slope in %u texels, by the level plane in %u, and z1 in %u",
+           (long)cases[n].slope, (unsigned long)cases[n].bias, by_incline, by_level, behind);
+        shape_free(&incline);
+        shape_free(&wall);
+    }
+}
+
 /* The bias in units of a 32-bit depth for a light; 0 on failure. */
 static uint32_t bias_of(const gn_light *light, uint16_t width, uint16_t height, uint8_t unit, uint32_t value)
 {
@@ -864,6 +971,7 @@ int main(int argc, char **argv)
     surfaces_by_hand();
     mixed_by_hand();
     inclined_planes_by_hand();
+    slopes_by_hand();
     bias_units_by_hand();
     layers_are_the_two_nearest(cases);
     clipped_triangles_count_once(2 * cases);

@@ -11,11 +11,15 @@
 
 #define gn_shade_row tested_shade_row
 #define gn_falloff_row tested_falloff_row
+#define gn_row_of_w tested_row_of_w
+#define gn_over_distance tested_over_distance
 void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
 void gn_falloff_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
-#include "gn_shade.c" /* for row_of_w, start and next */
+#include "gn_shade.c" /* for compare */
 #undef gn_shade_row
 #undef gn_falloff_row
+#undef gn_row_of_w
+#undef gn_over_distance
 
 typedef long double real;
 __extension__ typedef __int128 exact;
@@ -114,7 +118,7 @@ static int shaded_place(real out[3], const gn_context *context, uint32_t q, int3
                       gn_start_row(&s->coordinate[2], x, y)};
     *w = q;
     if (!context->camera_view.affine)
-        gn_row_of_w(w, 1, s->w_shift);
+        tested_row_of_w(w, 1, s->w_shift);
     uint32_t value[3] = {gn_step(&r[0], *w), gn_step(&r[1], *w), gn_step(&r[2], *w)};
     if (context->light.kind == GN_DIRECTIONAL) {
         for (int i = 0; i < 3; i++)

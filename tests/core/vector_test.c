@@ -55,11 +55,15 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
 /* The shadow test. */
 #define gn_shade_row twin_shade_row
 #define gn_falloff_row twin_falloff_row
+#define gn_row_of_w twin_row_of_w
+#define gn_over_distance twin_over_distance
 void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
 void gn_falloff_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
 #include "gn_shade.c"
 #undef gn_shade_row
 #undef gn_falloff_row
+#undef gn_row_of_w
+#undef gn_over_distance
 
 /* ---- scenes ---------------------------------------------------------------------------------------------------- */
 

@@ -141,8 +141,8 @@ virtual="--receiver virtual"
             shot always-$scene-$map $scene $second --receiver virtual-always --map $map
         done
     done
-    part=@130x130+100+190*3
-    join papers-curved 2 rule-torus2-128.difference$part always-torus2-128.difference$part
+    part=@130x90+400+210*3
+    join papers-curved 2 rule-pins-128.difference$part always-pins-128.difference$part
 
     echo "== figure 10: virtual samples lit where z < stored, and where z <= stored; map 128"
     "$work/stages" "$work/torus2.scene" $second $virtual --strict --map 128 -o "$work/strict" >/dev/null

@@ -16,10 +16,10 @@
  * input).
  *
  * --strict: virtual samples lit where z < stored, as in figure 10 of Wang & Molnar; gnomon has z <= stored. */
-#include "file.h"
 #include "frame.h"
 #include "gn_cascade.h"
 #include "image.h"
+#include "memory.h"
 #include "render_options.h"
 
 #include <inttypes.h>
@@ -43,6 +43,7 @@ typedef enum state {
     OUTSIDE,
     VOTED_LIT,
     VOTED_SHADOWED,
+    OPEN,
     SAMPLED_LIT,
     SAMPLED_SHADOWED,
     SAMPLED_PARTLY,
@@ -55,17 +56,15 @@ typedef struct pixel {
     uint32_t depth;
 } pixel;
 
-/* What the wrapped receiver reads and writes: callbacks of the cascade carry no pointer of ours, and there is one
- * worker.
+/* What the wrapped objects read and write: the cascade's callbacks carry no pointer of ours, and there is one worker.
  */
 static struct {
     const gn_receiver *receiver;
-    gn_sample *sample;
+    const gn_reconstruction *how;
     const gn_context *context;
     gn_worker *worker;
     pixel *pixels;
     int32_t width;
-    int strict;
 } recording;
 
 /* By the plane itself: z < stored is z + 1 <= stored, the same plane one stored unit farther. */
@@ -75,47 +74,57 @@ static uint32_t sample_strictly(const gn_lookup *lookup, const gn_points *points
     const gn_receiver_plane *plane = gn_find_plane(recording.context, recording.worker, points->triangle[i]);
     gn_wide_plane farther = plane->exists ? plane->plane : *nearer;
     farther.base += (int64_t)1 << (32 - GN_DEPTH_BITS);
-    return recording.sample(lookup, points, i, &farther);
+    return recording.how->sample(lookup, points, i, &farther);
 }
 
-static state state_of(uint32_t whole, uint32_t voted, uint32_t dark)
+static pixel *recorded(const gn_points *points, int32_t i)
 {
-    if (voted == 0 || voted == whole)
-        return voted ? VOTED_SHADOWED : VOTED_LIT;
-    return dark == 0 ? SAMPLED_LIT : dark == whole ? SAMPLED_SHADOWED : SAMPLED_PARTLY;
+    return recording.pixels + (size_t)points->y * (size_t)recording.width + (size_t)(points->x + i);
 }
 
-static void record(const gn_lookup *lookup, const gn_points *points, const uint32_t *voted)
+static state voted(const gn_lookup *lookup, const gn_points *points, int32_t i)
 {
-    pixel *row = recording.pixels + (size_t)points->y * (size_t)recording.width + points->x;
+    if (points->triangle[i] == GN_NO_TRIANGLE)
+        return NO_SURFACE;
+    if (!gn_find_plane(recording.context, recording.worker, points->triangle[i])->faces_light)
+        return TURNED_AWAY;
+    if (points->u[i] == GN_NOWHERE)
+        return OUTSIDE;
+    return points->dark[i] == 0 ? VOTED_LIT : points->dark[i] == lookup->whole ? VOTED_SHADOWED : OPEN;
+}
+
+static void prepare(const gn_context *context, gn_worker *worker, gn_points *points)
+{
+    recording.context = context;
+    recording.worker = worker;
+    if (recording.receiver->prepare)
+        recording.receiver->prepare(context, worker, points);
+}
+
+static void vote(const gn_lookup *lookup, gn_points *points)
+{
+    recording.how->vote(lookup, points);
     for (int32_t i = 0; i < points->count; i++) {
-        if (points->triangle[i] == GN_NO_TRIANGLE) {
-            row[i].state = NO_SURFACE;
-            continue;
-        }
-        row[i].texel = (uint8_t)((gn_texel(points->u[i], lookup->last_column, lookup->bits) ^
-                                  gn_texel(points->v[i], lookup->last_row, lookup->bits)) &
-                                 1);
-        row[i].depth = points->z[i];
-        if (!gn_find_plane(recording.context, recording.worker, points->triangle[i])->faces_light)
-            row[i].state = TURNED_AWAY;
-        else if (points->u[i] == GN_NOWHERE)
-            row[i].state = OUTSIDE;
-        else
-            row[i].state = (uint8_t)state_of(lookup->whole, voted[i], points->dark[i]);
+        pixel *p = recorded(points, i);
+        p->state = (uint8_t)voted(lookup, points, i);
+        p->depth = points->z[i];
+        p->texel = (uint8_t)((gn_texel(points->u[i], lookup->last_column, lookup->bits) ^
+                              gn_texel(points->v[i], lookup->last_row, lookup->bits)) &
+                             1);
     }
 }
 
+/* Called where there are open points. */
 static void resample(const gn_context *context, gn_worker *worker, const gn_lookup *lookup, gn_points *points,
                      gn_sample *sample)
 {
-    uint32_t voted[GN_BLOCK];
-    memcpy(voted, points->dark, (size_t)points->count * sizeof *voted);
-    recording.sample = sample;
-    recording.context = context;
-    recording.worker = worker;
-    recording.receiver->resample(context, worker, lookup, points, recording.strict ? sample_strictly : sample);
-    record(lookup, points, voted);
+    recording.receiver->resample(context, worker, lookup, points, sample);
+    for (int32_t i = 0; i < points->count; i++) {
+        pixel *p = recorded(points, i);
+        uint32_t dark = points->dark[i];
+        if (p->state == OPEN)
+            p->state = dark == 0 ? SAMPLED_LIT : dark == lookup->whole ? SAMPLED_SHADOWED : SAMPLED_PARTLY;
+    }
 }
 
 /* ---- pictures -------------------------------------------------------------------------------------------------- */
@@ -242,7 +251,7 @@ static int counts_agree(const job *j)
 
 /* ---- the program ----------------------------------------------------------------------------------------------- */
 
-static int run(job *j, const char *scene, const char *const values[])
+static int run(job *j, const char *scene, int strict, const char *const values[])
 {
     if (packed_read(&j->packed, scene, 0, &j->why) || render_options_read(&j->settings, &j->packed, values, &j->why))
         return -1;
@@ -250,16 +259,21 @@ static int run(job *j, const char *scene, const char *const values[])
     if (!receiver || !receiver->votes || !receiver->resample)
         return problem_of_usage(&j->why, "the receiver has no votes that virtual samples follow; expected --receiver "
                                          "virtual");
-    gn_receiver wrapped = *receiver;
-    wrapped.resample = resample;
-    wrapped.vote_at_once = 0; /* it leaves points that are not open without a place */
     recording.receiver = receiver;
+    recording.how = j->settings.reconstruction ? j->settings.reconstruction : receiver->nearest;
+    gn_reconstruction wrapped_how = *recording.how;
+    wrapped_how.vote = vote;
+    if (strict)
+        wrapped_how.sample = sample_strictly;
+    gn_receiver wrapped = *receiver;
+    wrapped.prepare = prepare;
+    wrapped.resample = resample;
+    wrapped.sunlit = wrapped.spotlit = 0; /* short cuts, past prepare and vote */
+    wrapped.nearest = &wrapped_how;
     recording.width = j->settings.width;
-    recording.pixels = calloc((size_t)j->settings.width * j->settings.height, sizeof *recording.pixels);
-    if (!recording.pixels)
-        return problem_of_usage(&j->why, "no memory for %d x %d pixels; expected a smaller --size", j->settings.width,
-                                j->settings.height);
+    recording.pixels = memory_take((size_t)j->settings.width * j->settings.height, sizeof *recording.pixels);
     j->settings.receiver = &wrapped;
+    j->settings.reconstruction = j->settings.reconstruction ? &wrapped_how : 0;
     j->settings.mask = 1;
     j->settings.format = GN_NO_COLOUR;
     if (frame_open(&j->frame, &j->packed.scene, &j->settings, 0, &j->why) ||
@@ -280,8 +294,7 @@ int main(int argc, char **argv)
                                   line.place_count);
     if (!result) {
         j.folder = values[OUTPUT];
-        recording.strict = values[STRICT] != 0;
-        result = run(&j, line.places[0], values);
+        result = run(&j, line.places[0], values[STRICT] != 0, values);
     }
     if (result)
         fprintf(stderr, "%s\n", j.why.text);
