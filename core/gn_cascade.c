@@ -8,6 +8,7 @@ static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction 
                    context->settings.map_width - 1u,
                    context->settings.map_height - 1u,
                    gn_point_bits(context),
+                   context->light.kind != GN_SPOT && context->shading.trusted == GN_WELL_INSIDE,
                    how->whole};
     return l;
 }

@@ -25,8 +25,9 @@ typedef struct gn_lookup {
     const gn_depth *map;
     uint32_t stride;
     uint32_t last_column, last_row;
-    uint32_t bits;  /* fraction bits of u and v, 8 to 18 */
-    uint32_t whole; /* shares of the reconstruction */
+    uint32_t bits;   /* fraction bits of u and v, 8 to 18 */
+    uint32_t inside; /* 1: no point lies at the border, but for what gn_hold says */
+    uint32_t whole;  /* shares of the reconstruction */
 } gn_lookup;
 
 /* The shadowed shares of a point that lies nowhere on the map. */
@@ -35,11 +36,10 @@ GN_INLINE uint32_t gn_dark_nowhere(const gn_lookup *lookup, uint32_t z)
     return z ? lookup->whole : 0;
 }
 
-/* The texel that holds a place u or v. A pixel without a surface has any place. */
+/* The texel that holds a place u or v. */
 GN_INLINE uint32_t gn_texel(uint32_t place, uint32_t last, uint32_t bits)
 {
-    uint32_t texel = (place + ((uint32_t)1 << (bits - 1))) >> bits;
-    return texel > last ? last : texel;
+    return gn_hold(place + ((uint32_t)1 << (bits - 1)), bits, last);
 }
 
 /* The error of a point's depth, of 2^32 (docs/number-formats.md): by so much nearer it votes where virtual samples may

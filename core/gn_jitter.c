@@ -13,9 +13,7 @@ static const uint8_t matrix[CELLS][CELLS] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 
 GN_INLINE uint32_t texel_at(uint32_t u, uint32_t cell, uint32_t sixteenths, uint32_t last, uint32_t bits)
 {
     uint32_t half = (uint32_t)1 << (bits - 1), start = (uint32_t)CELLS / 2 << bits;
-    uint32_t moved = u + half + (cell << bits) + ((2 * sixteenths + 1) << (bits - 5));
-    uint32_t texel = moved < start ? 0 : (moved - start) >> bits;
-    return texel > last ? last : texel;
+    return gn_hold(u + half - start + (cell << bits) + ((2 * sixteenths + 1) << (bits - 5)), bits, last);
 }
 
 /* The shadowed places by a plane, or, where that is 0, by one depth. */

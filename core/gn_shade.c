@@ -33,21 +33,29 @@ GN_INLINE uint32_t compare(uint32_t z, uint32_t bits, gn_depth stored)
 /* What a row's look-up needs, kept in registers. */
 typedef struct lookup {
     const gn_depth *map;
-    uint32_t stride, last, position_bits, depth_bits;
+    uint32_t width, height, stride, last, position_bits, depth_bits;
 } lookup;
 
 GN_INLINE lookup make_lookup(const gn_context *context)
 {
-    lookup l = {context->map, context->map_stride, context->map_stride * context->settings.map_height - 1,
-                context->shading.position_bits, context->shading.depth_bits};
+    uint32_t width = context->settings.map_width, height = context->settings.map_height;
+    lookup l = {context->map,
+                width,
+                height,
+                context->map_stride,
+                width * height - 1,
+                context->shading.position_bits,
+                context->shading.depth_bits};
     return l;
 }
 
-/* The texel's index. Inside the box the limit changes nothing; it keeps pixels without a surface inside the map. */
+/* The texel's index. */
 GN_INLINE uint32_t find_texel(const lookup *l, uint32_t u, uint32_t v)
 {
-    uint32_t texel = (v >> l->position_bits) * l->stride + (u >> l->position_bits);
-    return texel > l->last ? l->last : texel;
+    uint32_t column = u >> l->position_bits, row = v >> l->position_bits;
+    if (GN_ROW_PADDING && GN_LIKELY(column < l->width && row < l->height))
+        return row * l->stride + column;
+    return gn_index(column, row, l->width, l->stride, l->last);
 }
 
 /* A light's box that need not hold every point: outside it lit, behind it compared at the far end of the range. */
@@ -79,6 +87,7 @@ static void shade_directional(const gn_context *context, uint32_t *q, int32_t x,
 static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count)
 {
     enum { BLOCK = 128 };
+    static const uint32_t OUTSIDE = 0xffffffffu;
     uint32_t texel[BLOCK], depth[BLOCK];
     const gn_linear *c = context->shading.coordinate;
     lookup l = make_lookup(context);
@@ -88,12 +97,18 @@ static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int
                   z = gn_start_row(&c[2], x + from, y);
         for (int32_t i = 0; i < n; i++) {
             uint32_t w = q[i], step = (uint32_t)i;
-            texel[i] =
-                find_texel(&l, u.a + gn_w_product(w, u.b + step * u.b_dx), v.a + gn_w_product(w, v.b + step * v.b_dx));
+            uint32_t column = (u.a + gn_w_product(w, u.b + step * u.b_dx)) >> l.position_bits;
+            uint32_t row = (v.a + gn_w_product(w, v.b + step * v.b_dx)) >> l.position_bits;
+            texel[i] = column < l.width && row < l.height ? row * l.stride + column : OUTSIDE;
             depth[i] = z.a + gn_w_product(w, z.b + step * z.b_dx);
         }
-        for (int32_t i = 0; i < n; i++)
+        for (int32_t i = 0; i < n; i++) {
+            if (GN_UNLIKELY(texel[i] == OUTSIDE)) {
+                uint32_t place_u = u.a + gn_w_product(q[i], u.b + (uint32_t)i * u.b_dx);
+                texel[i] = find_texel(&l, place_u, v.a + gn_w_product(q[i], v.b + (uint32_t)i * v.b_dx));
+            }
             q[i] = compare(depth[i], l.depth_bits, l.map[texel[i]]);
+        }
     }
 }
 #else

@@ -40,6 +40,24 @@ GN_INLINE uint32_t gn_step(gn_runner *r, uint32_t w)
     return value;
 }
 
+/* The texel of a place u or v along one axis, held to the border. */
+GN_INLINE uint32_t gn_hold(uint32_t place, uint32_t bits, uint32_t last)
+{
+    uint32_t texel = place >> bits;
+    return GN_UNLIKELY(texel > last) ? (place >> 31 ? 0 : last) : texel;
+}
+
+/* The index in the map of texel number row width + column, modulo 2^32 and at most last. Where a light's box holds
+ * every vertex it still may not hold every point: those of triangles that the camera sees all but edge-on lie anywhere
+ * along their rays, and a pixel without a surface has any place. They take some texel, the same on every machine; where
+ * rows are not padded the number is the index. */
+GN_INLINE uint32_t gn_index(uint32_t column, uint32_t row, uint32_t width, uint32_t stride, uint32_t last)
+{
+    uint32_t number = row * width + column;
+    number = number > last ? last : number;
+    return GN_ROW_PADDING ? number / width * stride + number % width : number;
+}
+
 /* u, v and near / w in 2^-30, from (X + W) / 2, (Y + W) / 2 and W; returns the last. */
 GN_INLINE uint32_t gn_divide_place(const gn_shading *s, uint32_t *left, uint32_t *top, uint32_t w)
 {

@@ -26,22 +26,46 @@ static void move_nearer(const gn_context *context, gn_worker *worker, gn_points 
         points->z[i] = points->z[i] > GN_POINT_ERROR ? points->z[i] - GN_POINT_ERROR : 0;
 }
 
+/* The greatest number of a footprint's first texel; rows are as long as the map is wide. */
+GN_INLINE uint32_t last_footprint(const gn_lookup *l)
+{
+    return (l->last_column + 1) * l->last_row - 2;
+}
+
+/* The first of the two texels about a place along one axis; at the border the last ones. */
+GN_INLINE uint32_t first_of_two(uint32_t place, uint32_t bits, uint32_t last)
+{
+    uint32_t texel = place >> bits;
+    return texel >= last ? (place >> 31 ? 0 : last - 1) : texel;
+}
+
 /* At the border: the four texels that are nearest lie to one side of a place in the outer half texel and cannot tell
  * that it is shadowed: a convex surface may be behind all of them. */
-static GN_NOINLINE uint32_t look_at_border(const gn_lookup *l, uint32_t column, uint32_t row, uint32_t z)
+static GN_NOINLINE uint32_t look_at_border(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t z)
 {
-    column = column < l->last_column ? column : column >= GN_MAX_SIZE ? 0 : l->last_column - 1;
-    row = row < l->last_row ? row : row >= GN_MAX_SIZE ? 0 : l->last_row - 1;
-    const gn_depth *above = l->map + row * l->stride + column;
+    const gn_depth *above =
+        l->map + first_of_two(v, l->bits, l->last_row) * l->stride + first_of_two(u, l->bits, l->last_column);
     return agree(above, above + l->stride, z) ? OPEN : 0;
 }
 
-/* Whether the four texels at a place agree on a depth that was cut. */
-GN_INLINE uint32_t look(const gn_lookup *l, uint32_t column, uint32_t row, uint32_t z)
+/* Where no point should be: gn_index's texels, from a number on that has three more after it. */
+static GN_NOINLINE uint32_t look_beyond(const gn_lookup *l, uint32_t column, uint32_t row, uint32_t z)
 {
+    uint32_t width = l->last_column + 1, first = row * width + column, last = last_footprint(l);
+    gn_depth texel[4];
+    first = first > last ? last : first;
+    for (uint32_t k = 0; k < 4; k++)
+        texel[k] = l->map[gn_index(first + k % 2, k / 2, width, l->stride, 0xffffffffu)];
+    return agree(texel, texel + 2, z);
+}
+
+/* Whether the four texels at a place agree on a depth that was cut. */
+GN_INLINE uint32_t look(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t z)
+{
+    uint32_t column = u >> l->bits, row = v >> l->bits;
     const gn_depth *above = l->map + row * l->stride + column;
     if (GN_UNLIKELY(column >= l->last_column || row >= l->last_row))
-        return look_at_border(l, column, row, z);
+        return l->inside ? look_beyond(l, column, row, z) : look_at_border(l, u, v, z);
     return agree(above, above + l->stride, z);
 }
 
@@ -53,7 +77,7 @@ static void vote_around(const gn_lookup *lookup, gn_points *points)
         if (GN_UNLIKELY(u == GN_NOWHERE)) {
             vote = gn_dark_nowhere(lookup, z);
         } else {
-            vote = look(&l, u >> l.bits, points->v[i] >> l.bits, gn_cut(z));
+            vote = look(&l, u, points->v[i], gn_cut(z));
         }
         gn_vote_is(points, i, vote, GN_DARK);
     }
@@ -86,50 +110,51 @@ static GN_NOINLINE void open_point(const gn_context *context, gn_points *points,
     points->z[i] = (place[2] << (16u - s->depth_bits)) - GN_POINT_ERROR;
 }
 
-/* W of a pixel without a surface is 2^31 but for the reciprocal's error, every other is less by 1/64 (gn_shading.c). */
-#define NOTHING 0x7f000000u
-
-/* The number of the first of the four texels about each pixel, in points->z. */
+/* The number of the first of the four texels about each pixel, in points->z; rows are not padded. */
 static GN_NOINLINE void find_footprints(const gn_lookup *lookup, gn_points *points, const uint32_t *q)
 {
     gn_runner u = points->row[0], v = points->row[1];
-    const uint32_t bits = lookup->bits, stride = lookup->stride;
+    const uint32_t bits = lookup->bits, width = lookup->stride, last = last_footprint(lookup);
     uint32_t *out = points->z, *end = out + points->count;
     do {
         uint32_t w = *q++, column = (u.a + gn_w_product(w, u.b)) >> bits;
-        uint32_t texel = ((v.a + gn_w_product(w, v.b)) >> bits) * stride + column;
+        uint32_t number = ((v.a + gn_w_product(w, v.b)) >> bits) * width + column;
         u.b += u.b_dx;
         v.b += v.b_dx;
-        if (GN_UNLIKELY(w >= NOTHING))
-            texel = 0;
-        *out++ = texel;
+        *out++ = number > last ? last : number;
     } while (out != end);
     points->row[0].b = u.b;
     points->row[1].b = v.b;
 }
 
+/* Votes by the footprints in points->z. */
+static GN_NOINLINE void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint32_t *q, uint32_t depth_bits)
+{
+    const uint32_t below = lookup->stride, across = below + 1, dx = points->row[2].b_dx;
+    const uint32_t a = points->row[2].a - (GN_POINT_ERROR >> (16 - depth_bits));
+    const gn_depth *map = lookup->map;
+    const uint32_t *first = points->z;
+    uint32_t b = points->row[2].b, *end = q + points->count;
+    points->row[2].b = b + (uint32_t)points->count * dx;
+    do {
+        uint32_t depth = cut_raw(a + gn_w_product(*q++, b), depth_bits);
+        const gn_depth *texel = map + *first++;
+        uint32_t vote = compare(depth, texel[0]);
+        b += dx;
+        int open = (int32_t)vote >= 0 ? depth > texel[1] || depth > texel[below] || depth > texel[across]
+                                      : depth <= texel[1] || depth <= texel[below] || depth <= texel[across];
+        if (GN_UNLIKELY(open))
+            points->open[points->open_count++] = (uint8_t)(points->count - 1 - (end - q));
+        else
+            q[-1] = vote;
+    } while (q != end);
+}
+
 /* A perspective camera, and a directional light whose box holds every point well inside: the common case. */
 static void vote_sunlit(const gn_context *context, const gn_lookup *lookup, gn_points *points, uint32_t *q)
 {
-    const uint32_t stride = lookup->stride, depth_bits = context->shading.depth_bits;
-    const uint32_t z_a = points->row[2].a - (GN_POINT_ERROR >> (16 - depth_bits)), z_dx = points->row[2].b_dx;
-    const gn_depth *map = lookup->map;
     find_footprints(lookup, points, q);
-    const uint32_t *place = points->z;
-    uint32_t z_b = points->row[2].b, *at = q, *end = q + points->count;
-    do {
-        uint32_t depth = cut_raw(z_a + gn_w_product(*at++, z_b), depth_bits);
-        const gn_depth *above = map + *place++, *below = above + stride;
-        uint32_t first = compare(depth, above[0]);
-        z_b += z_dx;
-        int open = (int32_t)first >= 0 ? depth > above[1] || depth > below[0] || depth > below[1]
-                                       : depth <= above[1] || depth <= below[0] || depth <= below[1];
-        if (GN_UNLIKELY(open))
-            points->open[points->open_count++] = (uint8_t)(place - points->z - 1);
-        else
-            at[-1] = first;
-    } while (at != end);
-    points->row[2].b = z_b;
+    vote_by_footprints(lookup, points, q, context->shading.depth_bits);
     for (int32_t n = 0; n < points->open_count; n++)
         open_point(context, points, points->open[n], q[points->open[n]], lookup->bits);
 }
@@ -152,17 +177,17 @@ static void vote_spotlit(const gn_context *context, const gn_lookup *lookup, gn_
             continue; /* outside the frustum: unlit */
         }
         uint32_t nearness = gn_divide_place(s, &left, &top, distance);
-        uint32_t column = (uint32_t)((gn_multiply_u(left, width << 2) - 0x80000000u) >> 32);
-        uint32_t row = (uint32_t)((gn_multiply_u(top, height << 2) - 0x80000000u) >> 32);
+        uint32_t place_u = (uint32_t)(gn_multiply_u(left, width) >> 12) - GN_SPOT_HALF;
+        uint32_t place_v = (uint32_t)(gn_multiply_u(top, height) >> 12) - GN_SPOT_HALF;
         uint32_t z = gn_spot_depth(light, nearness);
         z = z > GN_POINT_ERROR ? z - GN_POINT_ERROR : 0;
-        uint32_t vote = look(lookup, column, row, gn_cut(z));
+        uint32_t vote = look(lookup, place_u, place_v, gn_cut(z));
         if (vote == GN_DARK)
             continue;
         q[i] = gn_over_distance(nearness, left, top, context->tan_squared);
         if (vote == OPEN) {
-            points->u[i] = (uint32_t)(gn_multiply_u(left, width) >> 12) - GN_SPOT_HALF;
-            points->v[i] = (uint32_t)(gn_multiply_u(top, height) >> 12) - GN_SPOT_HALF;
+            points->u[i] = place_u;
+            points->v[i] = place_v;
             points->z[i] = z;
             points->open[points->open_count++] = (uint8_t)i;
         }

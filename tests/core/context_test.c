@@ -1,5 +1,6 @@
 /* The public interface: plan, init, passes, and what they promise about memory, order and status. Images are compared
  * with the image of the plainest settings. Cases: 400 random settings, or GNOMON_CASES. */
+#include "gn_cascade.h"
 #include "scenes.h"
 
 #include <pthread.h>
@@ -160,11 +161,13 @@ static void bad_settings_are_refused(const courtyard *c)
     REFUSED(s.workers = 65, GN_OUT_OF_RANGE);
     REFUSED(s.cull = GN_CULL_FRONT + 1, GN_BAD_ARGUMENT);
     REFUSED(s.layers = GN_LAYERS_TWO + 1, GN_BAD_ARGUMENT);
-    REFUSED(s.surface = GN_MIXED + 1, GN_BAD_ARGUMENT);
+    REFUSED(s.surface = GN_SLOPE + 1, GN_BAD_ARGUMENT);
     REFUSED(s.format = GN_RGB565 + 1, GN_BAD_ARGUMENT);
     REFUSED(s.mask = 2, GN_BAD_ARGUMENT);
     REFUSED(s.bias.unit = GN_BIAS_RANGE + 1, GN_BAD_ARGUMENT);
     REFUSED((s.bias.unit = GN_BIAS_WORLD, s.bias.value = (1u << 28) + 1), GN_OUT_OF_RANGE);
+    REFUSED(s.slope = -1, GN_OUT_OF_RANGE);
+    REFUSED(s.slope = (64 << 16) + 1, GN_OUT_OF_RANGE);
     /* combinations without sense */
     REFUSED((s.surface = GN_CONSTANT, s.layers = GN_LAYERS_TWO), GN_UNSUPPORTED);
     REFUSED((s.surface = GN_MIDPOINT, s.layers = GN_LAYERS_FIRST), GN_UNSUPPORTED);
@@ -174,7 +177,18 @@ static void bad_settings_are_refused(const courtyard *c)
     REFUSED((s.surface = GN_DUAL, s.cull = GN_CULL_FRONT), GN_UNSUPPORTED);
     REFUSED((s.surface = GN_SECOND, s.layers = GN_LAYERS_TWO, s.cull = GN_CULL_FRONT), GN_UNSUPPORTED);
     REFUSED((s.surface = GN_SECOND, s.layers = GN_LAYERS_FIRST, s.cull = GN_CULL_NONE), GN_UNSUPPORTED);
+    REFUSED((s.surface = GN_SLOPE, s.layers = GN_LAYERS_TWO), GN_UNSUPPORTED);
+    /* what stands about a point needs two texels each way */
+    REFUSED((s.receiver = &gn_virtual, s.map_width = 1), GN_UNSUPPORTED);
+    REFUSED((s.receiver = &gn_virtual_always, s.map_height = 1), GN_UNSUPPORTED);
+    REFUSED((s.receiver = &gn_plane_bias, s.map_width = s.map_height = 1), GN_UNSUPPORTED);
+    REFUSED((s.reconstruction = &gn_bilinear, s.map_width = 1), GN_UNSUPPORTED);
+    REFUSED((s.reconstruction = &gn_box_7x7, s.map_height = 1), GN_UNSUPPORTED);
+    REFUSED((s.receiver = &gn_virtual, s.reconstruction = &gn_jitter_4x4, s.map_width = s.map_height = 2), GN_OK);
     /* ends of the ranges */
+    REFUSED((s.surface = GN_SLOPE, s.slope = 64 << 16), GN_OK);
+    REFUSED((s.surface = GN_SLOPE, s.cull = GN_CULL_FRONT), GN_OK);
+    REFUSED((s.receiver = &gn_virtual, s.reconstruction = &gn_box_3x3, s.width = s.height = GN_MAX_SIZE), GN_OK);
     REFUSED((s.width = s.height = s.map_width = s.map_height = 1, s.workers = 64), GN_OK);
     REFUSED((s.width = s.height = s.map_width = s.map_height = GN_MAX_SIZE), GN_OK);
     REFUSED((s.region_width = s.region_height = s.map_rows = GN_MAX_SIZE), GN_OK);
@@ -396,13 +410,23 @@ static gn_settings without_effect(gn_settings s)
     return s;
 }
 
+/* All that a pixel may be tested with; 0 is the point, and the nearest texel. */
+static const gn_receiver *const receivers[] = {0, &gn_plane_bias, &gn_virtual, &gn_virtual_always};
+static const gn_reconstruction *const reconstructions[] = {0,           &gn_bilinear, &gn_jitter_4x4,
+                                                           &gn_box_3x3, &gn_box_5x5,  &gn_box_7x7};
+
 static gn_settings random_settings(void)
 {
-    static const uint8_t surfaces[] = {GN_CONSTANT, GN_MIDPOINT, GN_DUAL, GN_SECOND, GN_MIXED};
+    static const uint8_t surfaces[] = {GN_CONSTANT, GN_MIDPOINT, GN_DUAL, GN_SECOND, GN_MIXED, GN_SLOPE};
     gn_settings s = gn_default_settings((uint16_t)between(1, 70), (uint16_t)between(1, 50), 1);
     s.map_width = (uint16_t)between(1, 90);
     s.map_height = (uint16_t)between(1, 90);
-    s.surface = surfaces[between(0, 4)];
+    s.surface = surfaces[between(0, 5)];
+    s.slope = between(0, 3 << 16);
+    if (s.map_width > 1 && s.map_height > 1) {
+        s.receiver = receivers[between(0, 3)];
+        s.reconstruction = reconstructions[between(0, 5)];
+    }
     s.format = (uint8_t)between(GN_NO_COLOUR, GN_RGB565);
     s.mask = 1;
     s.bias.unit = (uint8_t)between(GN_BIAS_WORLD, GN_BIAS_RANGE);
@@ -413,6 +437,7 @@ static gn_settings random_settings(void)
 static void images_do_not_depend_on_regions_and_memory_is_kept(const courtyard *c, uint64_t cases)
 {
     unsigned failures = 0;
+    uint64_t with_receiver = 0, with_reconstruction = 0, partly = 0;
     for (uint64_t n = 0; n < cases && failures < 5; n++) {
         gn_settings s = random_settings(), other = without_effect(s);
         const gn_light *light = between(0, 1) ? &c->sun : &c->spot;
@@ -422,6 +447,10 @@ static void images_do_not_depend_on_regions_and_memory_is_kept(const courtyard *
             status = render_plain(&b, c, &other, light);
         if (status != GN_OK && failures++ < 5)
             note("case %llu: status %d", (unsigned long long)n, (int)status);
+        with_receiver += s.receiver != 0;
+        with_reconstruction += s.reconstruction != 0;
+        for (size_t i = 0; status == GN_OK && i < mask_bytes(&a); i++)
+            partly += a.mask[i] > 0 && a.mask[i] < 254;
         if (status == GN_OK && !same_image("regions", &b, &a)) {
             failures++;
             note("case %llu: image %ux%u, map %ux%u, surface %u, regions %ux%u, %u rows of the map",
@@ -444,13 +473,17 @@ static void images_do_not_depend_on_regions_and_memory_is_kept(const courtyard *
     }
     ok(!failures, "images do not depend on regions or workers; nothing outside the block is written: %llu settings",
        (unsigned long long)cases);
+    ok(with_receiver > cases / 2 && with_reconstruction > cases / 2 && partly > 10 * cases,
+       "%llu of them with a receiver, %llu with a reconstruction; %llu pixels were partly lit",
+       (unsigned long long)with_receiver, (unsigned long long)with_reconstruction, (unsigned long long)partly);
 }
 
 static void odd_sizes_work(const courtyard *c)
 {
     static const uint16_t sizes[][4] = {/* image, map */
                                         {1, 1, 1, 1},     {1, 1, 64, 64},  {50, 40, 1, 1},   {64, 1, 4096, 1},
-                                        {1, 64, 1, 4096}, {7, 3, 4095, 3}, {4096, 2, 32, 5}, {3, 4096, 5, 32}};
+                                        {1, 64, 1, 4096}, {7, 3, 4095, 3}, {4096, 2, 32, 5}, {3, 4096, 5, 32},
+                                        {40, 30, 2, 2},   {40, 30, 3, 2},  {2, 5, 4096, 2},  {300, 3, 2, 4095}};
     static const uint16_t regions[][2] = {{0, 0}, {1, 1}, {7, 3}, {4096, 4096}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         unsigned failures = 0;
@@ -459,6 +492,10 @@ static void odd_sizes_work(const courtyard *c)
         s.map_width = sizes[i][2];
         s.map_height = sizes[i][3];
         s.mask = 1;
+        if (s.map_width > 1 && s.map_height > 1) {
+            s.receiver = receivers[1 + i % 3];
+            s.reconstruction = reconstructions[i % 6];
+        }
         gn_status status = render_plain(&plain, c, &s, &c->sun);
         failures += status != GN_OK;
         for (size_t r = 0; r < sizeof regions / sizeof regions[0]; r++) {
@@ -634,11 +671,14 @@ static void contexts_do_not_share_anything(const courtyard *c, const courtyard *
     ok(good, "two contexts, step by step in turn, give the images of whole passes");
 }
 
-static void steps_in_any_order_equal_whole_passes(const courtyard *c)
+static void steps_in_any_order_equal_whole_passes(const courtyard *c, const gn_receiver *receiver,
+                                                  const gn_reconstruction *reconstruction, const char *name)
 {
     frame plain, step;
     gn_settings s = plain_settings();
     s.surface = GN_MIDPOINT;
+    s.receiver = receiver;
+    s.reconstruction = reconstruction;
     s.map_rows = 5;
     s.region_width = 11;
     s.region_height = 6;
@@ -656,7 +696,7 @@ static void steps_in_any_order_equal_whole_passes(const courtyard *c)
     }
     good = good && same_image("steps", &step, &plain);
     good &= frame_end(&plain);
-    ok(good && frame_end(&step), "regions backwards on three workers equal whole passes");
+    ok(good && frame_end(&step), "regions backwards on three workers equal whole passes: %s", name);
 }
 
 static void a_stopped_frame_leaves_the_context_good(const courtyard *c)
@@ -681,12 +721,13 @@ static void a_stopped_frame_leaves_the_context_good(const courtyard *c)
 }
 
 /* Cameras on all sides: the sheet and the floor are seen from above, behind and below. */
-static void one_light_pass_serves_many_cameras(const courtyard *c)
+static void one_light_pass_serves_many_cameras(const courtyard *c, const gn_receiver *receiver, const char *name)
 {
     static const int32_t eyes[6][3] = {{7000, 6000, 9000},  {4000, 6500, 9000},  {1000, 7000, 9000},
                                        {-2000, 7500, 9000}, {2500, 9000, -9000}, {2500, -3000, -2000}};
     frame fresh, kept;
     gn_settings s = plain_settings();
+    s.receiver = receiver;
     int good = frame_start(&kept, &c->scene, &s) == GN_OK && gn_light_pass(kept.context, &c->sun) == GN_OK;
     for (int i = 0; good && i < 6; i++) {
         courtyard view = *c;
@@ -698,13 +739,14 @@ static void one_light_pass_serves_many_cameras(const courtyard *c)
                render_plain(&fresh, &view, &s, &c->sun) == GN_OK && same_image("another camera", &kept, &fresh);
         good &= frame_end(&fresh);
     }
-    ok(good && frame_end(&kept), "one light pass serves many cameras");
+    ok(good && frame_end(&kept), "one light pass serves many cameras: %s", name);
 }
 
-static void one_context_serves_many_lights(const courtyard *c)
+static void one_context_serves_many_lights(const courtyard *c, const gn_receiver *receiver, const char *name)
 {
     frame fresh, kept;
     gn_settings s = plain_settings();
+    s.receiver = receiver;
     int good = frame_start(&kept, &c->scene, &s) == GN_OK;
     for (int i = 0; good && i < 6; i++) {
         gn_light light = c->spot;
@@ -715,7 +757,43 @@ static void one_context_serves_many_lights(const courtyard *c)
                render_plain(&fresh, c, &s, &light) == GN_OK && same_image("another light", &kept, &fresh);
         good &= frame_end(&fresh);
     }
-    ok(good && frame_end(&kept), "one context serves many lights");
+    ok(good && frame_end(&kept), "one context serves many lights: %s", name);
+}
+
+/* A floor whose model moves between the passes, to where the light's formats do not reach: its planes are gone, its
+ * pixels are tested by their points. */
+static void planes_out_of_reach_are_level(const courtyard *c)
+{
+    int good = 1;
+    for (size_t r = 1; good && r < sizeof receivers / sizeof receivers[0]; r++) {
+        for (size_t h = 0; good && h < sizeof reconstructions / sizeof reconstructions[0]; h++) {
+            frame f;
+            gn_model model;
+            courtyard moved = *c;
+            gn_settings s = plain_settings();
+            uint64_t seen = 0;
+            s.receiver = receivers[r];
+            s.reconstruction = reconstructions[h];
+            gn_model_identity(&model);
+            moved.objects[0].model = &model;
+            moved.scene.objects = moved.objects;
+            moved.scene.object_count = 1;
+            moved.sun.box_depth = 1024; /* 2^31 units of depth: 2^44, the most, is 2^23 units of the world away */
+            moved.sun.box_z = -512;
+            good &= gn_perspective(&moved.camera, GN_DEGREES(45), 500 * UNIT, 20000 * UNIT) == GN_OK;
+            good &= frame_start(&f, &moved.scene, &s) == GN_OK && gn_light_pass(f.context, &moved.sun) == GN_OK;
+            /* so large that corners are out of reach, and the middle is where it was */
+            good = good && gn_model_scale(&model, 8 << 16, 1 << 16, 8 << 16) == GN_OK;
+            good = good && gn_camera_pass(f.context, &moved.camera, frame_flush, &f) == GN_OK;
+            const gn_receiver_plane *plane = good ? gn_find_plane(f.context, &f.context->workers[0], 0) : 0;
+            good = good && plane->faces_light && !plane->exists;
+            for (size_t i = 0; good && i < mask_bytes(&f); i++)
+                seen += f.mask[i] != 255;
+            good &= seen > 100;
+            good &= frame_end(&f);
+        }
+    }
+    ok(good, "a model may leave the light's reach between the passes");
 }
 
 /* Equal depth everywhere: a large sheet and many small ones in one plane. The object named first is seen, however the
@@ -838,6 +916,8 @@ static void workers_on_threads_equal_one(const courtyard *c)
         gn_settings s = plain_settings();
         const gn_light *light = i & 1 ? &c->sun : &c->spot;
         s.surface = surfaces[i % 3];
+        s.receiver = receivers[i % 4];
+        s.reconstruction = reconstructions[i % 6];
         good &= render_plain(&plain, c, &s, light) == GN_OK;
         s.workers = (uint8_t)between(2, 8);
         s.map_rows = (uint16_t)between(1, 20);
@@ -872,6 +952,8 @@ static void plan_takes_the_cheapest_layers(const courtyard *open, const courtyar
         {"midpoint: two", GN_MIDPOINT, 0, 0, GN_LAYERS_TWO, GN_CULL_NONE, 1},
         {"dual: two, back culled", GN_DUAL, 0, 0, GN_LAYERS_TWO, GN_CULL_BACK, 1},
         {"mixed: two, not culled", GN_MIXED, 0, 0, GN_LAYERS_TWO, GN_CULL_NONE, 0},
+        {"slope: one", GN_SLOPE, 0, 0, GN_LAYERS_FIRST, GN_CULL_NONE, 1},
+        {"slope, back culled: one", GN_SLOPE, 0, GN_CULL_BACK, GN_LAYERS_FIRST, GN_CULL_BACK, 0},
     };
     gn_plan plan;
     gn_settings s = plain_settings();
@@ -906,6 +988,22 @@ static void plan_takes_the_cheapest_layers(const courtyard *open, const courtyar
     s.format = GN_NO_COLOUR;
     gn_make_plan(&two, &closed->scene, &s);
     ok(two.camera_bytes == three.camera_bytes - 50 * 40 * 4, "colour and mask that are not wanted cost nothing");
+    s.receiver = &gn_virtual;
+    gn_make_plan(&three, &closed->scene, &s);
+    ok(three.camera_bytes == two.camera_bytes + 3 * GN_COLOUR_CACHE * sizeof(gn_receiver_plane) &&
+           three.light_bytes == two.light_bytes,
+       "a receiver costs a cache of planes for each worker");
+    s.receiver = 0;
+    s.reconstruction = &gn_box_5x5;
+    gn_make_plan(&three, &closed->scene, &s);
+    ok(three.camera_bytes == two.camera_bytes + 3 * 56 && three.light_bytes == two.light_bytes,
+       "a reconstruction costs a byte a pixel of a row for each worker, aligned");
+    s = plain_settings();
+    gn_make_plan(&one, &closed->scene, &s);
+    s.surface = GN_SLOPE;
+    gn_make_plan(&two, &closed->scene, &s);
+    ok(two.light_bytes == one.light_bytes + one.map_bytes && two.map_bytes == one.map_bytes,
+       "the accumulator of slopes costs as much as the map");
 }
 
 static void statistics_add_up(const courtyard *c)
@@ -949,10 +1047,17 @@ int main(int argc, char **argv)
     index_sizes_give_the_same_image(&open);
     scenes_are_never_written(&open);
     contexts_do_not_share_anything(&open, &closed);
-    steps_in_any_order_equal_whole_passes(&open);
+    steps_in_any_order_equal_whole_passes(&open, 0, 0, "the point, nearest");
+    steps_in_any_order_equal_whole_passes(&open, &gn_virtual, 0, "virtual samples, nearest");
+    steps_in_any_order_equal_whole_passes(&open, &gn_virtual_always, &gn_jitter_4x4, "virtual samples, 4x4 jitter");
+    steps_in_any_order_equal_whole_passes(&open, &gn_plane_bias, &gn_bilinear, "plane bias, bilinear");
     a_stopped_frame_leaves_the_context_good(&open);
-    one_light_pass_serves_many_cameras(&open);
-    one_context_serves_many_lights(&open);
+    one_light_pass_serves_many_cameras(&open, 0, "the point");
+    one_light_pass_serves_many_cameras(&open, &gn_virtual, "virtual samples");
+    one_light_pass_serves_many_cameras(&open, &gn_plane_bias, "plane bias");
+    one_context_serves_many_lights(&open, 0, "the point");
+    one_context_serves_many_lights(&open, &gn_virtual, "virtual samples");
+    planes_out_of_reach_are_level(&open);
     the_lower_identifier_wins_a_tie();
     rows_are_padded_for_vectors(&open);
     workers_on_threads_equal_one(&open);

@@ -81,8 +81,8 @@ static int block_by_hand(const double p[3])
 
 /* What the first scale gave. */
 typedef struct first_result {
-    outcome outcomes[METHOD_COUNT];
-    uint8_t *masks[METHOD_COUNT], *truth, *near;
+    outcome outcomes[COLUMN_COUNT];
+    uint8_t *masks[COLUMN_COUNT], *truth, *near;
     size_t count;
 } first_result;
 
@@ -93,7 +93,7 @@ static void keep_first(const hard_row *row, first_result *first)
     first->near = memory_take(first->count, 1);
     memcpy(first->truth, row->truth.mask, first->count);
     memcpy(first->near, row->near, first->count);
-    for (int method = 0; method < METHOD_COUNT; method++) {
+    for (int method = 0; method < COLUMN_COUNT; method++) {
         first->outcomes[method] = row->outcomes[method];
         first->masks[method] = memory_take(first->count, 1);
         if (row->outcomes[method].ran)
@@ -116,7 +116,7 @@ static void check_scale(hard_row *row, const first_result *first, size_t which)
     const char *name = row->about->name;
     promise(row, differing(row, first, first->truth, row->truth.mask) == 0, 0, "%s_%g_has_the_same_truth", name,
             scales[which]);
-    for (int method = 0; method < METHOD_COUNT; method++) {
+    for (int method = 0; method < COLUMN_COUNT; method++) {
         const outcome *o = &row->outcomes[method], *f = &first->outcomes[method];
         if (!promise(row, o->ran && f->ran, 0, "%s_%g_%s_renders", name, scales[which], method_names[method]))
             continue;
@@ -145,7 +145,7 @@ static void run_scales(hard_row *row)
             row_end(row);
             break;
         }
-        for (int method = 0; method < METHOD_COUNT; method++) {
+        for (int method = 0; method < COLUMN_COUNT; method++) {
             gn_settings s = method_settings(&row->packed, method, 0);
             row_measure(row, method, &s);
         }
@@ -155,7 +155,7 @@ static void run_scales(hard_row *row)
             check_scale(row, &first, i);
         row_end(row);
     }
-    for (int method = 0; method < METHOD_COUNT; method++)
+    for (int method = 0; method < COLUMN_COUNT; method++)
         free(first.masks[method]);
     free(first.truth);
     free(first.near);

@@ -139,7 +139,7 @@ static const hard_case cases[] = {
      .build = build_solid_at_20,
      .by_hand = at_20_by_hand,
      /* midpoint_of_the_top: D = 0.090 m, dark from 0.051 m to 0.090 m: 2 columns of pixels, 0.5 %. */
-     .methods = {[METHOD_MIDPOINT] = SHADOW(0.2, 0.8)}},
+     .methods = {[COLUMN_MIDPOINT] = SHADOW(0.2, 0.8)}},
     {.name = "grazing_10_degrees",
      .group = GROUP,
      .flags = LONG,
@@ -152,9 +152,9 @@ static const hard_case cases[] = {
      /* Rows of 0.36 m, the last 0.053 m of each, 2 or 3 columns: 9 rows over 1.5 m, and one each before, behind and on
       * the block; column by column 10.6 %, two columns of 0.375 % more or less. Midpoint: D = 0.269 m, half a row 0.18
       * m, dark from 0.139 m to 0.18 m: 2 columns. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(9.9, 11.4),
-                 [METHOD_MIDPOINT] = SHADOW(0.2, 0.8),
-                 [METHOD_DUAL] = SHADOW(9.9, 11.4)}},
+     .methods = {[COLUMN_CONSTANT] = SHADOW(9.9, 11.4),
+                 [COLUMN_MIDPOINT] = SHADOW(0.2, 0.8),
+                 [COLUMN_DUAL] = SHADOW(9.9, 11.4)}},
     {.name = "grazing_5_degrees",
      .group = GROUP,
      .title = "5 degrees",
@@ -162,13 +162,13 @@ static const hard_case cases[] = {
      .advice = "As above.",
      .build = build_solid_at_5,
      .by_hand = at_5_by_hand,
-     .picture = METHOD_DUAL + 1,
+     .picture = COLUMN_DUAL + 1,
      /* Rows of 0.717 m, the last 0.233 m of each: 5 over 1.5 m, one before the block, 0.12 m of its top: 2.1 m^2;
       * column by column 25.25 %, two columns more or less. Midpoint: D = 0.245 m, dark from 0.123 m on: 6 columns of 1
       * m, 1.5 %. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(24.4, 26.1),
-                 [METHOD_MIDPOINT] = SHADOW(1.2, 1.8),
-                 [METHOD_DUAL] = SHADOW(24.4, 26.1)}},
+     .methods = {[COLUMN_CONSTANT] = SHADOW(24.4, 26.1),
+                 [COLUMN_MIDPOINT] = SHADOW(1.2, 1.8),
+                 [COLUMN_DUAL] = SHADOW(24.4, 26.1)}},
     {.name = "grazing_2_degrees",
      .group = GROUP,
      .title = "2 degrees",
@@ -181,9 +181,9 @@ static const hard_case cases[] = {
      /* Centres at x = -0.895 and 0.895. Constant: dark from -0.77 to 0 and 1.02 to 1.67 over 1.5 m, and 0.175 m of the
       * block's top, whose centre stands on its front: 2.3 m^2. Midpoint, the slab ends at 1.95: dark from 1.42 on, 0.37
       * m^2, and half of the block's top, 0.15 m^2: column by column 6.25 %. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(26.7, 28.3),
-                 [METHOD_MIDPOINT] = SHADOW(5.8, 6.7),
-                 [METHOD_DUAL] = SHADOW(26.7, 28.3)}},
+     .methods = {[COLUMN_CONSTANT] = SHADOW(26.7, 28.3),
+                 [COLUMN_MIDPOINT] = SHADOW(5.8, 6.7),
+                 [COLUMN_DUAL] = SHADOW(26.7, 28.3)}},
     {.name = "grazing_1_degree",
      .group = GROUP,
      .flags = LONG,
@@ -208,7 +208,7 @@ static const hard_case cases[] = {
      .by_hand = at_tenth_by_hand,
      /* Dark from 2 t behind the slab's front, outside of what is seen, to 0, where lit: 2.5 m^2 beside the block and
       * 0.27 m^2 before it. The row x > 0 has its centre above the floor. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(30, 35), [METHOD_DUAL] = SHADOW(30, 35)}},
+     .methods = {[COLUMN_CONSTANT] = SHADOW(30, 35), [COLUMN_DUAL] = SHADOW(30, 35)}},
     {.name = "grazing_hundredth",
      .group = GROUP,
      .title = "0.01 degree",
@@ -216,8 +216,8 @@ static const hard_case cases[] = {
      .advice = "As above.",
      .build = build_solid_at_hundredth,
      .by_hand = at_hundredth_by_hand,
-     .picture = METHOD_SECOND + 1,
-     .methods = {[METHOD_CONSTANT] = SHADOW(30, 35), [METHOD_DUAL] = SHADOW(30, 35)}},
+     .picture = COLUMN_SECOND + 1,
+     .methods = {[COLUMN_CONSTANT] = SHADOW(30, 35), [COLUMN_DUAL] = SHADOW(30, 35)}},
     {.name = "sheet_20_degrees",
      .group = GROUP,
      .flags = LONG,
@@ -226,9 +226,9 @@ static const hard_case cases[] = {
      .advice = "Second depth is not for open meshes; `auto` takes mixed.",
      .build = build_sheet_at_20,
      .by_hand = at_20_by_hand,
-     .picture = METHOD_SECOND + 1,
+     .picture = COLUMN_SECOND + 1,
      /* Midpoint: the block's top, as on the solid. */
-     .methods = {[METHOD_MIDPOINT] = SHADOW(0.2, 0.8), [METHOD_SECOND] = SHADOW(38, 45)}},
+     .methods = {[COLUMN_MIDPOINT] = SHADOW(0.2, 0.8), [COLUMN_SECOND] = SHADOW(38, 45)}},
     {.name = "sheet_5_degrees",
      .group = GROUP,
      .title = "5 degrees, sheet",
@@ -237,13 +237,13 @@ static const hard_case cases[] = {
      .advice = "`auto` takes 8 texels where something is open.",
      .build = build_sheet_at_5,
      .by_hand = at_5_by_hand,
-     .picture = METHOD_MIXED + 1,
+     .picture = COLUMN_MIXED + 1,
      /* As on the solid; for mixed without the block's top, 0.12 m^2. Second depth: half of 5.26 m^2. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(24.4, 26.1),
-                 [METHOD_MIDPOINT] = SHADOW(1.2, 1.8),
-                 [METHOD_DUAL] = SHADOW(24.4, 26.1),
-                 [METHOD_SECOND] = SHADOW(28, 35),
-                 [METHOD_MIXED] = SHADOW(22, 26)}},
+     .methods = {[COLUMN_CONSTANT] = SHADOW(24.4, 26.1),
+                 [COLUMN_MIDPOINT] = SHADOW(1.2, 1.8),
+                 [COLUMN_DUAL] = SHADOW(24.4, 26.1),
+                 [COLUMN_SECOND] = SHADOW(28, 35),
+                 [COLUMN_MIXED] = SHADOW(22, 26)}},
     {.name = "sheet_2_degrees",
      .group = GROUP,
      .flags = LONG,
@@ -254,12 +254,12 @@ static const hard_case cases[] = {
      .build = build_sheet_at_2,
      .by_hand = at_2_by_hand,
      /* Midpoint: half of the block's top, 7 columns of 1 m: 1.75 %. The others as on the solid. */
-     .methods = {[METHOD_CONSTANT] = SHADOW(26.7, 28.3),
-                 [METHOD_MIDPOINT] = SHADOW(1.4, 2.1),
-                 [METHOD_DUAL] = SHADOW(26.7, 28.3),
-                 [METHOD_SECOND] = SHADOW(28, 32),
-                 [METHOD_MIXED] = SHADOW(24, 27),
-                 [METHOD_AUTO] = SHADOW(11, 13)}},
+     .methods = {[COLUMN_CONSTANT] = SHADOW(26.7, 28.3),
+                 [COLUMN_MIDPOINT] = SHADOW(1.4, 2.1),
+                 [COLUMN_DUAL] = SHADOW(26.7, 28.3),
+                 [COLUMN_SECOND] = SHADOW(28, 32),
+                 [COLUMN_MIXED] = SHADOW(24, 27),
+                 [COLUMN_AUTO] = SHADOW(11, 13)}},
     {.name = "sheet_hundredth",
      .group = GROUP,
      .title = "0.01 degree, sheet",
@@ -274,7 +274,7 @@ static const hard_case cases[] = {
      .advice = "As it should be: shadowed, as N.L = 0.",
      .build = build_edge_on,
      .by_hand = edge_on_by_hand,
-     .picture = METHOD_AUTO + 1},
+     .picture = COLUMN_AUTO + 1},
     {.name = "almost_edge_on",
      .group = GROUP,
      .title = "wall 0.014 degree from that, lit side",
@@ -289,7 +289,7 @@ static const hard_case cases[] = {
      .advice = "A bias takes its own length from the foot of every shadow of a sheet.",
      .build = build_edge_on_camera,
      .by_hand = edge_on_camera_by_hand,
-     .methods = {[METHOD_CONSTANT] = LIGHT(0.5, 1.4)}},
+     .methods = {[COLUMN_CONSTANT] = LIGHT(0.5, 1.4)}},
 };
 
 const hard_list light_cases = {cases, COUNT(cases)};

@@ -427,7 +427,7 @@ static gn_status render_status(void (*change)(packed_scene *packed, int32_t valu
     b.width = b.height = b.map_width = b.map_height = 8;
     if (build_finish(&b, &packed) == 0) {
         change(&packed, value);
-        gn_settings settings = method_settings(&packed, METHOD_AUTO, 0);
+        gn_settings settings = method_settings(&packed, COLUMN_AUTO, 0);
         if (frame_open(&f, &packed.scene, &settings, 0, &why) == 0) {
             gn_pixels pixels;
             uint8_t mask[64];
@@ -576,7 +576,7 @@ static const hard_case cases[] = {
          "A bias in texels is converted at sqrt(near far): for spot lights give it in metres, or take second depth.",
      .build = build_spot_1000,
      .by_hand = far_spot_by_hand,
-     .methods = {[METHOD_CONSTANT] = LIGHT(8, 9.9)}},
+     .methods = {[COLUMN_CONSTANT] = LIGHT(8, 9.9)}},
     {.name = "spot_10000",
      .group = GROUP,
      .title = "1 : 10^4",
@@ -586,13 +586,13 @@ static const hard_case cases[] = {
      .advice = "Near planes as far out as the scene allows; else `GN_DEPTH_BITS=32`.",
      .build = build_spot_10000,
      .by_hand = far_spot_by_hand,
-     .picture = METHOD_MIXED + 1,
-     .methods = {[METHOD_CONSTANT] = LIGHT(8, 9.9),
-                 [METHOD_MIDPOINT] = SPOT_10000_MIDDLE,
-                 [METHOD_DUAL] = SPOT_10000_MIDDLE,
-                 [METHOD_SECOND] = SPOT_10000_SECOND,
-                 [METHOD_MIXED] = SPOT_10000_MIXED,
-                 [METHOD_AUTO] = SPOT_10000_SECOND}},
+     .picture = COLUMN_MIXED + 1,
+     .methods = {[COLUMN_CONSTANT] = LIGHT(8, 9.9),
+                 [COLUMN_MIDPOINT] = SPOT_10000_MIDDLE,
+                 [COLUMN_DUAL] = SPOT_10000_MIDDLE,
+                 [COLUMN_SECOND] = SPOT_10000_SECOND,
+                 [COLUMN_MIXED] = SPOT_10000_MIXED,
+                 [COLUMN_AUTO] = SPOT_10000_SECOND}},
     {.name = "wide_spot",
      .group = GROUP,
      .title = "spot light of 178 degrees, 3 cm above a floor",
@@ -602,10 +602,10 @@ static const hard_case cases[] = {
      .by_hand = wide_spot_by_hand,
      /* 2 t at sqrt(near far) = 16 mm are 57 mm, more than all of the depth. The shadow: 0.35 m x 0.17 m or so. Second
       * depth: half a texel behind the foot's edges, as of the turned block: 0.15 m x 0.027 m. */
-     .methods = {[METHOD_CONSTANT] = LIGHT(0.2, 0.9),
-                 [METHOD_SECOND] = LIGHT(0, 0.05),
-                 [METHOD_MIXED] = LIGHT(0, 0.05),
-                 [METHOD_AUTO] = LIGHT(0, 0.05)}},
+     .methods = {[COLUMN_CONSTANT] = LIGHT(0.2, 0.9),
+                 [COLUMN_SECOND] = LIGHT(0, 0.05),
+                 [COLUMN_MIXED] = LIGHT(0, 0.05),
+                 [COLUMN_AUTO] = LIGHT(0, 0.05)}},
     {.name = "distant_spot",
      .group = GROUP,
      .flags = LONG,
@@ -679,9 +679,9 @@ static const hard_case cases[] = {
      .advice = "As it should be.",
      .build = build_through_near,
      .by_hand = through_near_by_hand,
-     .picture = METHOD_AUTO + 1,
+     .picture = COLUMN_AUTO + 1,
      /* The panel's top back edge, 0.25 t on the map, for the midpoint. */
-     .methods = {[METHOD_MIDPOINT] = SHADOW(0, 0.5)}},
+     .methods = {[COLUMN_MIDPOINT] = SHADOW(0, 0.5)}},
     {.name = "cut_by_light",
      .group = GROUP,
      .title = "solid cut by a light's near plane, another behind the light",
@@ -689,8 +689,8 @@ static const hard_case cases[] = {
      .advice = "Keep solids on one side of a light's near plane, or take second depth.",
      .build = build_cut_by_light,
      .by_hand = cut_by_light_by_hand,
-     .picture = METHOD_DUAL + 1,
-     .methods = {[METHOD_DUAL] = LIGHT(1.8, 2.9), [METHOD_MIXED] = CUT_MIXED}},
+     .picture = COLUMN_DUAL + 1,
+     .methods = {[COLUMN_DUAL] = LIGHT(1.8, 2.9), [COLUMN_MIXED] = CUT_MIXED}},
     {.name = "camera_inside",
      .group = GROUP,
      .title = "camera inside a solid; all is dark",
@@ -700,17 +700,17 @@ static const hard_case cases[] = {
      .build = build_camera_inside,
      .by_hand = all_dark_by_hand,
      .flags = NO_LIGHT,
-     .picture = METHOD_SECOND + 1,
+     .picture = COLUMN_SECOND + 1,
      /* They are the back faces that the map holds, compared with themselves: of each texel the half nearer to the light
       * is lit. The floor fills 38.3 % of the picture, the far wall 16.8 %: 27.6 %; pixel by pixel 28.0 %. The floor's
       * nearest row of texels, 5.5 %, is cut by the picture's edge: what its half gives or takes is 1.4 %. Constant,
       * dual: what is within 2 t of the ceiling along the light, 0.088 m of the far wall's 1.2 m; it fills 1/8 of the
       * picture: 1 %. */
-     .methods = {[METHOD_CONSTANT] = LIGHT(0.5, 1.5),
-                 [METHOD_DUAL] = LIGHT(0.5, 1.5),
-                 [METHOD_SECOND] = LIGHT(26.6, 29.4),
-                 [METHOD_MIXED] = LIGHT(26.6, 29.4),
-                 [METHOD_AUTO] = LIGHT(26.6, 29.4)}},
+     .methods = {[COLUMN_CONSTANT] = LIGHT(0.5, 1.5),
+                 [COLUMN_DUAL] = LIGHT(0.5, 1.5),
+                 [COLUMN_SECOND] = LIGHT(26.6, 29.4),
+                 [COLUMN_MIXED] = LIGHT(26.6, 29.4),
+                 [COLUMN_AUTO] = LIGHT(26.6, 29.4)}},
     {.name = "light_inside",
      .group = GROUP,
      .title = "spot light inside a solid; all is dark",
@@ -721,7 +721,7 @@ static const hard_case cases[] = {
      .flags = NO_LIGHT,
      /* The light sees the inside of the lamp, back faces; behind them the floor. The frustum is 3.2 m wide on the
       * floor, the picture 3.33 m; the lamp hides 2 %. */
-     .methods = {[METHOD_DUAL] = LIGHT(85, 96), [METHOD_MIXED] = LIGHT(85, 96)}},
+     .methods = {[COLUMN_DUAL] = LIGHT(85, 96), [COLUMN_MIXED] = LIGHT(85, 96)}},
     {.name = "limits",
      .group = GROUP,
      .title = "at limits that core/gnomon.h states, and one step beyond",

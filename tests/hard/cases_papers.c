@@ -89,18 +89,18 @@ static void check_no_bias_suits(hard_row *row)
 {
     double least = 100, at = 0;
     for (double bias = 0.125; bias < 40; bias *= sqrt(2)) {
-        gn_settings s = method_settings(&row->packed, METHOD_CONSTANT, 0);
-        outcome kept = row->outcomes[METHOD_CONSTANT];
-        row->outcomes[METHOD_CONSTANT] = (outcome){0};
+        gn_settings s = method_settings(&row->packed, COLUMN_CONSTANT, 0);
+        outcome kept = row->outcomes[COLUMN_CONSTANT];
+        row->outcomes[COLUMN_CONSTANT] = (outcome){0};
         s.bias = texels(bias);
-        row_measure(row, METHOD_CONSTANT, &s);
-        const outcome *o = &row->outcomes[METHOD_CONSTANT];
+        row_measure(row, COLUMN_CONSTANT, &s);
+        const outcome *o = &row->outcomes[COLUMN_CONSTANT];
         double own = percent_of(row, o->own_shadow + o->own_light);
         promise(row, own > 0, 0, "%s_bias_of_%.3g_texels_errs", row->about->name, bias);
         if (own < least)
             least = own, at = bias;
-        row_forget(&row->outcomes[METHOD_CONSTANT]);
-        row->outcomes[METHOD_CONSTANT] = kept;
+        row_forget(&row->outcomes[COLUMN_CONSTANT]);
+        row->outcomes[COLUMN_CONSTANT] = kept;
     }
     row_remark(row, "Best of 1/8 to 32 texels: %.2g texels, %.2f %% of its own.", at, least);
 }
@@ -152,8 +152,8 @@ static int unshadowing_by_hand(const double p[3])
  * - 0.125 = 0.115 m. 48 pixels a metre; a row of 96 pixels more or less for the rounding of heights to pixels. */
 static void check_unshadowing(hard_row *row)
 {
-    static const double heights[METHOD_COUNT] = {0.115, 0.24, 0.115, 0.24, 0.24, 0.24, 0};
-    for (int method = 0; method < METHOD_VOLUMES; method++) {
+    static const double heights[COLUMN_COUNT] = {0.115, 0.24, 0.115, 0.24, 0.24, 0.24, 0};
+    for (int method = 0; method < COLUMN_VOLUMES; method++) {
         double expected = heights[method] * 2 * 48 * 48;
         if (!promise(row, fabs((double)row->outcomes[method].false_light - expected) <= 97, 0,
                      "%s_%s_unshadows_%.3f_m_of_the_slope", row->about->name, method_names[method], heights[method]))
@@ -297,7 +297,7 @@ static void build_l_shape(builder *b)
 static void check_l_shape(hard_row *row)
 {
     outcome plain[2];
-    static const int methods[2] = {METHOD_MIDPOINT, METHOD_DUAL};
+    static const int methods[2] = {COLUMN_MIDPOINT, COLUMN_DUAL};
     for (int i = 0; i < 2; i++) {
         outcome culled = row->outcomes[methods[i]];
         row->outcomes[methods[i]] = (outcome){0};
@@ -310,15 +310,15 @@ static void check_l_shape(hard_row *row)
                 "%s_%s_shadows_its_silhouettes_unless_back_faces_are_culled", row->about->name,
                 method_names[methods[i]]);
     }
-    promise(row, row->outcomes[METHOD_MIDPOINT].own_light > 0, 0, "%s_midpoint_unshadows_when_back_faces_are_culled",
+    promise(row, row->outcomes[COLUMN_MIDPOINT].own_light > 0, 0, "%s_midpoint_unshadows_when_back_faces_are_culled",
             row->about->name);
-    promise(row, row->outcomes[METHOD_CONSTANT].own_light > 4 * row->outcomes[METHOD_DUAL].own_light, 0,
+    promise(row, row->outcomes[COLUMN_CONSTANT].own_light > 4 * row->outcomes[COLUMN_DUAL].own_light, 0,
             "%s_constant_lights_the_crease", row->about->name);
     const outcome *o = row->outcomes;
-    uint64_t dual = o[METHOD_DUAL].own_shadow + o[METHOD_DUAL].own_light;
+    uint64_t dual = o[COLUMN_DUAL].own_shadow + o[COLUMN_DUAL].own_light;
     promise(row,
-            dual <= o[METHOD_CONSTANT].own_shadow + o[METHOD_CONSTANT].own_light &&
-                dual <= o[METHOD_MIDPOINT].own_shadow + o[METHOD_MIDPOINT].own_light,
+            dual <= o[COLUMN_CONSTANT].own_shadow + o[COLUMN_CONSTANT].own_light &&
+                dual <= o[COLUMN_MIDPOINT].own_shadow + o[COLUMN_MIDPOINT].own_light,
             0, "%s_dual_without_back_faces_errs_least", row->about->name);
     row_remark(row, "Without culling: midpoint %.1f + %.1f, dual %.1f + %.1f.", plain[0].shadow_percent,
                plain[0].light_percent, plain[1].shadow_percent, plain[1].light_percent);
@@ -338,8 +338,8 @@ static const hard_case cases[] = {
      .advice = "A constant bias must exceed half a texel's slope: 0.5 cot e texels for light e above the surface.",
      .build = build_table_acne,
      .by_hand = table_by_hand,
-     .picture = METHOD_CONSTANT + 1,
-     .methods = {[METHOD_CONSTANT] = SHADOW(26, 31), [METHOD_DUAL] = SHADOW(26, 31)}},
+     .picture = COLUMN_CONSTANT + 1,
+     .methods = {[COLUMN_CONSTANT] = SHADOW(26, 31), [COLUMN_DUAL] = SHADOW(26, 31)}},
     {.name = "table_detached",
      .group = GROUP,
      .source = "W&M fig. 4",
@@ -348,8 +348,8 @@ static const hard_case cases[] = {
      .advice = "A constant bias lights what is nearer than it behind its occluder. Dual bounds it by half the gap.",
      .build = build_table_detached,
      .by_hand = table_by_hand,
-     .picture = METHOD_CONSTANT + 1,
-     .methods = {[METHOD_CONSTANT] = LIGHT(0.1, 0.35)}},
+     .picture = COLUMN_CONSTANT + 1,
+     .methods = {[COLUMN_CONSTANT] = LIGHT(0.1, 0.35)}},
     {.name = "table_and_ramp",
      .group = GROUP,
      .source = "W&M, section 2",
@@ -368,7 +368,7 @@ static const hard_case cases[] = {
       * at which a leg loses its shadow. Midpoint: the ramp is thin only where it ends; its last row at most, half of
       * it: 0.22 m x 0.5 m / 2, 0.7 %. */
      .methods =
-         {[METHOD_CONSTANT] = SHADOW(0.7, 1.5), [METHOD_MIDPOINT] = SHADOW(0, 0.7), [METHOD_DUAL] = SHADOW(0.7, 1.5)}},
+         {[COLUMN_CONSTANT] = SHADOW(0.7, 1.5), [COLUMN_MIDPOINT] = SHADOW(0, 0.7), [COLUMN_DUAL] = SHADOW(0.7, 1.5)}},
     {.name = "thin_slab",
      .group = GROUP,
      .source = "W&M fig. 7",
@@ -379,13 +379,13 @@ static const hard_case cases[] = {
          "take `mixed`. Virtual samples will mend it.",
      .build = build_thin_slab,
      .by_hand = thin_slab_by_hand,
-     .picture = METHOD_SECOND + 1,
+     .picture = COLUMN_SECOND + 1,
      /* A point d behind its texel's centre on the map is d cot 30 deeper, the back of the slab 2 x t / 10: shadowed
       * from d = 0.1155 t on, midpoint 0.0577 t; pixels are t / 6 apart: 2 or 3 of 6. The top is 1 m x 1.4 m, 16.8 %. */
-     .methods = {[METHOD_MIDPOINT] = SHADOW(5, 8.5),
-                 [METHOD_SECOND] = SHADOW(5, 8.5),
-                 [METHOD_MIXED] = SHADOW(5, 8.5),
-                 [METHOD_AUTO] = SHADOW(5, 8.5)}},
+     .methods = {[COLUMN_MIDPOINT] = SHADOW(5, 8.5),
+                 [COLUMN_SECOND] = SHADOW(5, 8.5),
+                 [COLUMN_MIXED] = SHADOW(5, 8.5),
+                 [COLUMN_AUTO] = SHADOW(5, 8.5)}},
     {.name = "unshadowing",
      .group = GROUP,
      .source = "W&E fig. 2a",
@@ -397,8 +397,8 @@ static const hard_case cases[] = {
      .build = build_unshadowing,
      .by_hand = unshadowing_by_hand,
      .check = check_unshadowing,
-     .picture = METHOD_MIDPOINT + 1,
-     .methods = {[METHOD_CONSTANT] = SHADOW(5.5, 6.7), [METHOD_DUAL] = SHADOW(5.5, 6.7)}},
+     .picture = COLUMN_MIDPOINT + 1,
+     .methods = {[COLUMN_CONSTANT] = SHADOW(5.5, 6.7), [COLUMN_DUAL] = SHADOW(5.5, 6.7)}},
     {.name = "silhouette",
      .group = GROUP,
      .source = "W&E fig. 2b",
@@ -407,11 +407,11 @@ static const hard_case cases[] = {
      .advice = "Solids with sharp edges towards the light: `dual`, which culls back faces.",
      .build = build_silhouette,
      .by_hand = silhouette_by_hand,
-     .picture = METHOD_MIDPOINT + 1,
-     .methods = {[METHOD_MIDPOINT] = SHADOW(1.4, 2),
-                 [METHOD_SECOND] = SHADOW(0.7, 1),
-                 [METHOD_MIXED] = SHADOW(0.7, 1),
-                 [METHOD_AUTO] = SHADOW(0.7, 1)}},
+     .picture = COLUMN_MIDPOINT + 1,
+     .methods = {[COLUMN_MIDPOINT] = SHADOW(1.4, 2),
+                 [COLUMN_SECOND] = SHADOW(0.7, 1),
+                 [COLUMN_MIXED] = SHADOW(0.7, 1),
+                 [COLUMN_AUTO] = SHADOW(0.7, 1)}},
     {.name = "near_receiver",
      .group = GROUP,
      .flags = LONG,
@@ -421,8 +421,8 @@ static const hard_case cases[] = {
      .advice = "As for the table's legs: a bias larger than the gap takes the shadow away.",
      .build = build_near_receiver,
      .by_hand = near_receiver_by_hand,
-     .picture = METHOD_CONSTANT + 1,
-     .methods = {[METHOD_CONSTANT] = LIGHT(2, 2.8)}},
+     .picture = COLUMN_CONSTANT + 1,
+     .methods = {[COLUMN_CONSTANT] = LIGHT(2, 2.8)}},
     {.name = "background",
      .group = GROUP,
      .source = "W&E fig. 4a",
@@ -432,8 +432,8 @@ static const hard_case cases[] = {
      .build = build_background,
      .by_hand = background_by_hand,
      .flags = CULL_BACK,
-     .picture = METHOD_MIDPOINT + 1,
-     .methods = {[METHOD_MIDPOINT] = LIGHT(0.85, 1.2)}},
+     .picture = COLUMN_MIDPOINT + 1,
+     .methods = {[COLUMN_MIDPOINT] = LIGHT(0.85, 1.2)}},
     {.name = "steep_receiver",
      .group = GROUP,
      .source = "W&E fig. 4b",
@@ -444,9 +444,9 @@ static const hard_case cases[] = {
      .build = build_steep_receiver,
      .by_hand = steep_receiver_by_hand,
      .flags = CULL_BACK,
-     .picture = METHOD_MIDPOINT + 1,
+     .picture = COLUMN_MIDPOINT + 1,
      .methods =
-         {[METHOD_CONSTANT] = SHADOW(11.5, 13), [METHOD_MIDPOINT] = LIGHT(3.5, 4.9), [METHOD_DUAL] = SHADOW(11.5, 13)}},
+         {[COLUMN_CONSTANT] = SHADOW(11.5, 13), [COLUMN_MIDPOINT] = LIGHT(3.5, 4.9), [COLUMN_DUAL] = SHADOW(11.5, 13)}},
     {.name = "l_shape",
      .group = GROUP,
      .source = "W&E fig. 5",
@@ -460,16 +460,16 @@ static const hard_case cases[] = {
      .build = build_l_shape,
      .check = check_l_shape,
      .flags = CULL_BACK,
-     .picture = METHOD_CONSTANT + 1,
+     .picture = COLUMN_CONSTANT + 1,
      /* Second depth: edges that fall sideways by up to 0.47 leave less than 0.47 x t/2 of thickness within 0.12 t of
       * them, on some 2.5 m: 0.5 %. A texel whose centre lies before the crease holds the L's bottom; half a texel, 1/16
       * m, of a crease of 0.8 m: 0.05 m^2 at most, 0.6 %. */
-     .methods = {[METHOD_CONSTANT] = ANYTHING,
-                 [METHOD_MIDPOINT] = ANYTHING,
-                 [METHOD_DUAL] = ANYTHING,
-                 [METHOD_SECOND] = {0, 0.5, 0, 0.6, 0},
-                 [METHOD_MIXED] = {0, 0.5, 0, 0.6, 0},
-                 [METHOD_AUTO] = {0, 0.5, 0, 0.6, 0}}},
+     .methods = {[COLUMN_CONSTANT] = ANYTHING,
+                 [COLUMN_MIDPOINT] = ANYTHING,
+                 [COLUMN_DUAL] = ANYTHING,
+                 [COLUMN_SECOND] = {0, 0.5, 0, 0.6, 0},
+                 [COLUMN_MIXED] = {0, 0.5, 0, 0.6, 0},
+                 [COLUMN_AUTO] = {0, 0.5, 0, 0.6, 0}}},
 };
 
 const hard_list papers_cases = {cases, COUNT(cases)};

@@ -67,7 +67,7 @@ static int keep_worst(outcome *worst, const outcome *now)
 /* Own errors, or of volumes all errors, in per cent. */
 static double own_percent(const hard_row *row, const outcome *o, int method)
 {
-    uint64_t count = method == METHOD_VOLUMES ? o->false_shadow + o->false_light : o->own_shadow + o->own_light;
+    uint64_t count = method == COLUMN_VOLUMES ? o->false_shadow + o->false_light : o->own_shadow + o->own_light;
     return percent_of(row, count);
 }
 
@@ -79,15 +79,15 @@ static double own_percent(const hard_row *row, const outcome *o, int method)
  * the tops, some 4 m: 0.13 m^2, 1.6 %; second depth, mixed: half a texel behind the contact of the block, 2.4 m, of
  * which half is away from the light: t / 2 sin 45 = 0.047 m: 0.056 m^2, 0.7 %; and along edges that fall sideways (the
  * wedge), 0.5 % as of the L. */
-static const double own_limit[METHOD_COUNT] = {2.1, 1.6, 2.1, 1.2, 1.2, 1.2, 0};
+static const double own_limit[COLUMN_COUNT] = {2.1, 1.6, 2.1, 1.2, 1.2, 1.2, 0};
 
 /* ---- 360 directions ---------------------------------------------------------------------------------------------- */
 
 static void run_directions(hard_row *row)
 {
-    outcome worst[METHOD_COUNT];
-    double worst_own[METHOD_COUNT] = {0};
-    int worst_at[METHOD_COUNT] = {0}, lit = 1, failed = 0;
+    outcome worst[COLUMN_COUNT];
+    double worst_own[COLUMN_COUNT] = {0};
+    int worst_at[COLUMN_COUNT] = {0}, lit = 1, failed = 0;
     memset(worst, 0, sizeof worst);
     reset();
     sizes.width = 80, sizes.height = 60;
@@ -99,7 +99,7 @@ static void run_directions(hard_row *row)
             break;
         }
         lit &= row->truth.lit > 0 && row->truth.shadowed > 0;
-        for (int method = 0; method < METHOD_COUNT; method++) {
+        for (int method = 0; method < COLUMN_COUNT; method++) {
             gn_settings s = method_settings(&row->packed, method, 0);
             row_measure(row, method, &s);
             outcome *o = &row->outcomes[method];
@@ -111,7 +111,7 @@ static void run_directions(hard_row *row)
     }
     promise(row, lit && !failed, 0, "%s_have_lit_and_shadowed_pixels", row->about->name);
     memcpy(row->outcomes, worst, sizeof worst);
-    for (int method = 0; method < METHOD_COUNT; method++) {
+    for (int method = 0; method < COLUMN_COUNT; method++) {
         if (!worst[method].ran)
             continue;
         if (!promise(row, worst_own[method] <= own_limit[method], 0, "%s_%s_errs_as_derived", row->about->name,
@@ -132,7 +132,7 @@ enum {
     WAS_LIT = 1,
     WAS_SHADOWED = 2,
     TEXEL_ERRED = 4, /* once the truth was another at the texel's centre, at most half a texel away */
-    METHOD_ERRED = 8 /* once it was wrong without that */
+    COLUMN_ERRED = 8 /* once it was wrong without that */
 };
 
 /* A pixel may flip where the truth's edge is within half a texel of it, t / 2 sideways and t / (2 sin 45) along the
@@ -142,7 +142,7 @@ enum {
  * left out: at this azimuth its far side is turned away from the light by 3 degrees and its near side faces it.
  *
  * Of how many pixels may flip: shadow edges of 10 m in all, 0.093 m of floor about each, 0.93 m^2. */
-static const double own_flip_limit[METHOD_COUNT] = {0.4, 1.6, 0.4, 1.2, 1.2, 1.2, 0};
+static const double own_flip_limit[COLUMN_COUNT] = {0.4, 1.6, 0.4, 1.2, 1.2, 1.2, 0};
 static const double flip_limit = 11;
 
 /* Add what a mask says to what was seen before. */
@@ -153,7 +153,7 @@ static void look_for_flips(hard_row *row, const outcome *o, uint8_t *seen, size_
             continue;
         seen[i] |= o->mask[i] ? WAS_LIT : WAS_SHADOWED;
         if (o->mask[i] != row->truth.mask[i])
-            seen[i] |= footprint_differs(&row->footprint, i, row->truth.mask[i]) ? TEXEL_ERRED : METHOD_ERRED;
+            seen[i] |= footprint_differs(&row->footprint, i, row->truth.mask[i]) ? TEXEL_ERRED : COLUMN_ERRED;
     }
 }
 
@@ -170,7 +170,7 @@ static void check_flips(hard_row *row, int method, const uint8_t *seen, size_t c
     if (!promise(row, apart_percent <= own_flip_limit[method], 0, "%s_%s_flips_within_half_a_texel_of_an_edge",
                  row->about->name, method_names[method]))
         say("%.3f %% flip elsewhere, expected at most %g", apart_percent, own_flip_limit[method]);
-    promise(row, all_percent <= (method == METHOD_VOLUMES ? 0 : flip_limit), 0, "%s_%s_flips_as_derived",
+    promise(row, all_percent <= (method == COLUMN_VOLUMES ? 0 : flip_limit), 0, "%s_%s_flips_as_derived",
             row->about->name, method_names[method]);
     row_remark(row, "%s%s %.1f (%.2f)", method ? ", " : "Flip (of these elsewhere): ", method_names[method],
                all_percent, apart_percent);
@@ -180,9 +180,9 @@ static void check_flips(hard_row *row, int method, const uint8_t *seen, size_t c
 static void run_translation(hard_row *row)
 {
     enum { STEPS = 16, PIXELS = 160 * 120 };
-    uint8_t *seen = memory_take((size_t)METHOD_COUNT * PIXELS, 1);
-    outcome worst[METHOD_COUNT];
-    double worst_own[METHOD_COUNT] = {0};
+    uint8_t *seen = memory_take((size_t)COLUMN_COUNT * PIXELS, 1);
+    outcome worst[COLUMN_COUNT];
+    double worst_own[COLUMN_COUNT] = {0};
     int same_truth = 1;
     uint64_t surface = 1;
     uint8_t *first = memory_take(PIXELS, 1); /* the truth before anything moves */
@@ -199,7 +199,7 @@ static void run_translation(hard_row *row)
             memcpy(first, row->truth.mask, PIXELS);
         surface = row->truth.surface;
         same_truth &= memcmp(first, row->truth.mask, PIXELS) == 0;
-        for (int method = 0; method < METHOD_COUNT; method++) {
+        for (int method = 0; method < COLUMN_COUNT; method++) {
             gn_settings s = method_settings(&row->packed, method, 0);
             row_measure(row, method, &s);
             outcome *o = &row->outcomes[method];
@@ -211,7 +211,7 @@ static void run_translation(hard_row *row)
     }
     promise(row, same_truth, 0, "%s_leaves_the_truth_as_it_is", row->about->name);
     memcpy(row->outcomes, worst, sizeof worst);
-    for (int method = 0; method < METHOD_COUNT; method++) {
+    for (int method = 0; method < COLUMN_COUNT; method++) {
         if (!worst[method].ran)
             continue;
         check_flips(row, method, seen + (size_t)method * PIXELS, PIXELS, surface);
@@ -231,7 +231,7 @@ static void run_maps(hard_row *row)
 {
     static const uint16_t maps[][2] = {{1, 1},   {1, 4096},  {4096, 1},   {3, 5},      {17, 1000},
                                        {64, 64}, {255, 257}, {1024, 512}, {4096, 4096}};
-    double total[COUNT(maps)][METHOD_COUNT] = {{0}};
+    double total[COUNT(maps)][COLUMN_COUNT] = {{0}};
     size_t last = hard_is_short() ? COUNT(maps) - 3 : COUNT(maps);
     reset();
     for (size_t i = 0; i < last; i++) {
@@ -241,7 +241,7 @@ static void run_maps(hard_row *row)
             row_end(row);
             break;
         }
-        for (int method = 0; method < METHOD_VOLUMES; method++) {
+        for (int method = 0; method < COLUMN_VOLUMES; method++) {
             gn_settings s = method_settings(&row->packed, method, 0);
             row_measure(row, method, &s);
             const outcome *o = &row->outcomes[method];
@@ -252,12 +252,12 @@ static void run_maps(hard_row *row)
                 promise(row, own_percent(row, o, method) <= own_limit[method], 0, "%s_%ux%u_%s_errs_as_derived",
                         row->about->name, maps[i][0], maps[i][1], method_names[method]);
         }
-        row_remark(row, "%s%ux%u %.1f", i ? ", " : "`auto`, total: ", maps[i][0], maps[i][1], total[i][METHOD_AUTO]);
+        row_remark(row, "%s%ux%u %.1f", i ? ", " : "`auto`, total: ", maps[i][0], maps[i][1], total[i][COLUMN_AUTO]);
         row_end(row);
     }
     row_remark(row, " %%.");
     /* Errors along edges go with the side of a texel: 1/64 of it, and a pixel's share where none is left. */
-    for (int method = 0; method < METHOD_VOLUMES && last == COUNT(maps); method++)
+    for (int method = 0; method < COLUMN_VOLUMES && last == COUNT(maps); method++)
         promise(row, total[last - 1][method] <= total[5][method] / 16, 0, "%s_%s_errs_less_on_a_larger_map",
                 row->about->name, method_names[method]);
     reset();
@@ -266,7 +266,7 @@ static void run_maps(hard_row *row)
 static void run_images(hard_row *row)
 {
     static const uint16_t images[][2] = {{1, 1}, {17, 3}, {3, 17}, {161, 119}, {4096, 1}, {1, 4096}};
-    outcome worst[METHOD_COUNT];
+    outcome worst[COLUMN_COUNT];
     memset(worst, 0, sizeof worst);
     reset();
     for (size_t i = 0; i < (hard_is_short() ? 4 : COUNT(images)); i++) {
@@ -276,7 +276,7 @@ static void run_images(hard_row *row)
             row_end(row);
             break;
         }
-        for (int method = 0; method < METHOD_COUNT; method++) {
+        for (int method = 0; method < COLUMN_COUNT; method++) {
             gn_settings s = method_settings(&row->packed, method, 0);
             row_measure(row, method, &s);
             const outcome *o = &row->outcomes[method];
@@ -284,7 +284,7 @@ static void run_images(hard_row *row)
             int is_line = images[i][1] < 100 || images[i][0] < 100;
             promise(row,
                     o->ran && o->coverage == 0 &&
-                        ((is_line && method != METHOD_VOLUMES) || own_percent(row, o, method) <= own_limit[method]),
+                        ((is_line && method != COLUMN_VOLUMES) || own_percent(row, o, method) <= own_limit[method]),
                     0, "%s_%ux%u_%s_errs_as_derived", row->about->name, images[i][0], images[i][1],
                     method_names[method]);
             if (images[i][0] == 161)
@@ -311,7 +311,7 @@ static void run_cuts(hard_row *row)
         row_end(row);
         return;
     }
-    for (int method = 0; method < METHOD_COUNT; method++) {
+    for (int method = 0; method < COLUMN_COUNT; method++) {
         gn_settings s = method_settings(&row->packed, method, 0);
         row_measure(row, method, &s);
         for (size_t i = 0; row->outcomes[method].ran && i < COUNT(cuts); i++) {

@@ -72,8 +72,8 @@ static void check_outcome(hard_row *row, int method)
     outcome *o = &row->outcomes[method];
     const hard_case *c = row->about;
     const expectation *e = &c->methods[method];
-    double shadow = percent_of(row, method == METHOD_VOLUMES ? o->false_shadow : o->own_shadow);
-    double light = percent_of(row, method == METHOD_VOLUMES ? o->false_light : o->own_light);
+    double shadow = percent_of(row, method == COLUMN_VOLUMES ? o->false_shadow : o->own_shadow);
+    double light = percent_of(row, method == COLUMN_VOLUMES ? o->false_light : o->own_light);
     o->met = within(shadow, e->shadow_least, e->shadow_most) && within(light, e->light_least, e->light_most);
     if (!promise(row, o->met, e->unmet, "%s_%s_errs_as_derived", c->name, method_names[method]))
         say("of its own: false shadow %.3f %%, expected %g to %g; false light %.3f %%, expected %g to %g", shadow,
@@ -84,7 +84,7 @@ static void check_outcome(hard_row *row, int method)
 
 static void run_methods(hard_row *row)
 {
-    for (int method = 0; method < METHOD_COUNT; method++) {
+    for (int method = 0; method < COLUMN_COUNT; method++) {
         gn_settings settings = method_settings(&row->packed, method, row->about->flags);
         row_measure(row, method, &settings);
         if (row->outcomes[method].ran)
@@ -109,7 +109,7 @@ static void run_case(hard_row *row)
 
 /* ---- the table ------------------------------------------------------------------------------------------------- */
 
-static const char *const column_names[METHOD_COUNT] = {"constant", "midpoint", "dual",   "second depth",
+static const char *const column_names[COLUMN_COUNT] = {"constant", "midpoint", "dual",   "second depth",
                                                        "mixed",    "auto",     "volumes"};
 
 static void print_cell(const hard_row *row, int method)
@@ -119,7 +119,7 @@ static void print_cell(const hard_row *row, int method)
         printf(" - |");
         return;
     }
-    int own = method == METHOD_VOLUMES ? o->false_shadow + o->false_light > 0 : o->own_shadow + o->own_light > 0;
+    int own = method == COLUMN_VOLUMES ? o->false_shadow + o->false_light > 0 : o->own_shadow + o->own_light > 0;
     const char *mark = own ? "**" : "";
     printf(" %s%.1f + %.1f%s |", mark, o->shadow_percent, o->light_percent, mark);
 }
@@ -128,7 +128,7 @@ static void print_cell(const hard_row *row, int method)
 static int known_to_fail(const hard_row *row)
 {
     int count = 0;
-    for (int method = 0; method < METHOD_COUNT; method++) {
+    for (int method = 0; method < COLUMN_COUNT; method++) {
         const outcome *o = &row->outcomes[method];
         count += o->ran && !o->met && row->about->methods[method].unmet;
     }
@@ -140,10 +140,10 @@ static void print_row(const hard_row *row)
     const hard_case *c = row->about;
     printf("| %s%s%s%s | %s%s%s |", c->title, c->source ? " (" : "", c->source ? c->source : "", c->source ? ")" : "",
            c->expected, row->remark[0] ? " " : "", row->remark);
-    for (int method = 0; method < METHOD_COUNT; method++)
+    for (int method = 0; method < COLUMN_COUNT; method++)
         print_cell(row, method);
     printf(" %s", c->advice);
-    for (int method = 0; row->unmet && method < METHOD_COUNT; method++)
+    for (int method = 0; row->unmet && method < COLUMN_COUNT; method++)
         if (row->outcomes[method].ran && !row->outcomes[method].met && c->methods[method].unmet)
             printf(" **Not met**, %s: %s.", column_names[method], c->methods[method].unmet);
     printf("%s |\n", row->unmet > known_to_fail(row) ? " **Not met.**" : "");
@@ -152,10 +152,10 @@ static void print_row(const hard_row *row)
 static void print_group(const char *group)
 {
     printf("\n## %s\n\n| case | expected |", group);
-    for (int method = 0; method < METHOD_COUNT; method++)
+    for (int method = 0; method < COLUMN_COUNT; method++)
         printf(" %s |", column_names[method]);
     printf(" what to know |\n|---|---|");
-    for (int method = 0; method < METHOD_COUNT; method++)
+    for (int method = 0; method < COLUMN_COUNT; method++)
         printf("---|");
     printf("---|\n");
 }

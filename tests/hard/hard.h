@@ -20,17 +20,17 @@
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 enum method {
-    METHOD_CONSTANT,
-    METHOD_MIDPOINT,
-    METHOD_DUAL,
-    METHOD_SECOND,
-    METHOD_MIXED,
-    METHOD_AUTO,
-    METHOD_VOLUMES,
-    METHOD_COUNT
+    COLUMN_CONSTANT,
+    COLUMN_MIDPOINT,
+    COLUMN_DUAL,
+    COLUMN_SECOND,
+    COLUMN_MIXED,
+    COLUMN_AUTO,
+    COLUMN_VOLUMES,
+    COLUMN_COUNT
 };
 
-extern const char *const method_names[METHOD_COUNT];
+extern const char *const method_names[COLUMN_COUNT];
 
 /* Own errors in per cent of the pixels that see a surface, at least and at most; all zero: none. Of volumes: errors of
  * any kind that are not near a tie. */
@@ -72,7 +72,7 @@ typedef struct hard_row {
     double unit; /* world integers a metre */
     int32_t origin[3];
     uint8_t *near; /* near a tie, or on one */
-    outcome outcomes[METHOD_COUNT];
+    outcome outcomes[COLUMN_COUNT];
     int met, unmet;   /* promises kept and broken */
     char remark[400]; /* figures of this run for the table */
 } hard_row;
@@ -110,7 +110,7 @@ typedef struct hard_case {
     void (*run)(hard_row *row);            /* in place of build: a sweep that fills the row itself */
     unsigned flags;
     int picture; /* method of the picture, + 1; 0: none */
-    expectation methods[METHOD_COUNT];
+    expectation methods[COLUMN_COUNT];
 } hard_case;
 
 typedef struct hard_list {

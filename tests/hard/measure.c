@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const method_names[METHOD_COUNT] = {"constant", "midpoint", "dual",   "second_depth",
+const char *const method_names[COLUMN_COUNT] = {"constant", "midpoint", "dual",   "second_depth",
                                                 "mixed",    "auto",     "volumes"};
 
 static int all_are_closed(const packed_scene *packed)
@@ -27,17 +27,17 @@ gn_settings method_settings(const packed_scene *packed, int method, unsigned fla
     s.format = GN_NO_COLOUR;
     s.cull = GN_CULL_AUTO;
     s.layers = GN_LAYERS_AUTO;
-    if (method == METHOD_AUTO) {
+    if (method == COLUMN_AUTO) {
         s.surface = all_are_closed(packed) ? GN_SECOND : GN_MIXED;
         s.bias = (gn_bias){GN_BIAS_TEXELS, 8 << 16};
-    } else if (method == METHOD_VOLUMES) {
+    } else if (method == COLUMN_VOLUMES) {
         s.shadow = GN_SHADOW_VOLUMES;
     } else {
         s.surface = surfaces[method];
     }
-    if (method == METHOD_MIDPOINT && flags & CULL_BACK)
+    if (method == COLUMN_MIDPOINT && flags & CULL_BACK)
         s.cull = GN_CULL_BACK;
-    if (method == METHOD_DUAL && flags & CULL_NONE)
+    if (method == COLUMN_DUAL && flags & CULL_NONE)
         s.cull = GN_CULL_NONE;
     return s;
 }
@@ -196,7 +196,7 @@ void row_measure(hard_row *row, int method, const gn_settings *settings)
 
 void row_end(hard_row *row)
 {
-    for (int i = 0; i < METHOD_COUNT; i++) {
+    for (int i = 0; i < COLUMN_COUNT; i++) {
         free(row->outcomes[i].mask);
         row->outcomes[i].mask = 0;
     }

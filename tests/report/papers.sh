@@ -135,14 +135,14 @@ virtual="--receiver virtual"
     join papers-slab 2 point-slab@400x300+110+70 virtual-slab@400x300+110+70
 
     echo "== figure 9: virtual samples at every pixel, and only where the texels disagree"
-    for scene in torus2 pins; do
+    for scene in torus2 pins pipes; do
         for map in 64 128 256 512; do
             shot rule-$scene-$map $scene $second $virtual --map $map
             shot always-$scene-$map $scene $second --receiver virtual-always --map $map
         done
     done
-    part=@130x90+400+210*3
-    join papers-curved 2 rule-pins-128.difference$part always-pins-128.difference$part
+    part=@120x80+180+240*3
+    join papers-curved 2 rule-pipes-128.difference$part always-pipes-128.difference$part
 
     echo "== figure 10: virtual samples lit where z < stored, and where z <= stored; map 128"
     "$work/stages" "$work/torus2.scene" $second $virtual --strict --map 128 -o "$work/strict" >/dev/null

@@ -49,7 +49,7 @@ echo "== points compared, map 128"
     "$work/stages" "$work/room.scene" --method mixed $virtual --reconstruct bilinear --map 128 -o "$work/bilinear"
     echo "torus2, mixed"
     "$work/stages" "$work/torus2.scene" --method mixed $virtual --map 128 -o "$work/sun"
-    join shadow-test-texels 2 mixed/texels@300x225+0+210 sun/texels@300x225+180+90
+    join shadow-test-texels 2 mixed/texels@300x200+0+210 sun/texels@300x200+180+90
     join shadow-test-votes 2 second/votes@400x300+0+160 mixed/votes@400x300+0+160
     join shadow-test-samples 2 second/samples@400x300+0+160 mixed/samples@400x300+0+160
 
