@@ -89,6 +89,15 @@ void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place c
     }
 }
 
+int gn_find_piece(gn_rows *rows, const gn_polygon *polygon, int32_t i, const gn_window *window)
+{
+    const gn_vertex *v = polygon->v;
+    int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
+    if (area == 0 || (area > 0) != (polygon->area > 0))
+        return 0;
+    return gn_find_rows(rows, &v[0], area > 0 ? &v[i] : &v[i + 1], area > 0 ? &v[i + 1] : &v[i], window);
+}
+
 static void fit_depth_plane(gn_depth_plane *plane, const gn_polygon *polygon)
 {
     const gn_vertex *v = polygon->v;

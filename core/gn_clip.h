@@ -28,6 +28,10 @@ gn_place gn_plane_crossing(const gn_view *view, const gn_place *a, const gn_plac
 
 void gn_clip_triangle(gn_polygon *polygon, const gn_view *view, const gn_place corner[3]);
 
+/* The rows of the fan's piece (v[0], v[i], v[i + 1]) inside a window; 0 if there are none, or if snapping turned it
+ * over. */
+int gn_find_piece(gn_rows *rows, const gn_polygon *polygon, int32_t i, const gn_window *window);
+
 /* The depth plane of all pieces, area != 0; steep ones are flat. The polygon's other corners were snapped, so where the
  * plane is steep and ends in the near or far plane they lie beyond the range: then it is moved back into it, or flat,
  * so that it does not wrap over the polygon. At v[0] it is within the range. */

@@ -15,11 +15,13 @@
 #if defined __GNUC__
 #define GN_INLINE static inline __attribute__((always_inline))
 #define GN_NOINLINE __attribute__((noinline))
+#define GN_COLD __attribute__((noinline, cold)) /* seldom called: small before fast */
 #define GN_LIKELY(condition) __builtin_expect(!!(condition), 1)
 #define GN_UNLIKELY(condition) __builtin_expect(!!(condition), 0)
 #else
 #define GN_INLINE static inline
 #define GN_NOINLINE
+#define GN_COLD
 #define GN_LIKELY(condition) (condition)
 #define GN_UNLIKELY(condition) (condition)
 #endif

@@ -44,7 +44,6 @@ GN_INLINE uint32_t start_depth(const target *t, int32_t row, int32_t left)
     return t->plane.base + (uint32_t)row * t->plane.dy + (uint32_t)left * t->plane.dx;
 }
 
-#if !GN_VECTOR_16
 GN_INLINE void insert_first(gn_depth *z1, gn_depth v)
 {
     if (v < *z1)
@@ -86,6 +85,25 @@ GN_INLINE uint32_t risen(uint32_t z, uint32_t rise)
     return sum < rise ? 0xffffffffu : sum;
 }
 
+/* A triangle that is too steep for 32 bits covers few texels: one by one, and any way of insertion. */
+static GN_COLD void insert_steep_span(const target *t, int32_t row, int32_t left, int32_t right)
+{
+    int64_t depth = gn_wide_depth(&t->steep_plane, left, row);
+    for (int32_t at = row * t->stride + left; left < right; left++, at++, depth += t->steep_plane.dx) {
+        uint32_t z = gn_saturate(depth);
+        gn_depth *z1 = t->first + at, v = cut(z, t->how, t->open), old = *z1;
+        insert_first(z1, v);
+        if (t->how == FIRST)
+            continue;
+        if (t->how == RISING)
+            v = cut(risen(z, t->rise), t->how, t->open);
+        else if (t->how != TWICE && v < old)
+            v = old;
+        insert_first(t->second + (at - t->second_offset), v);
+    }
+}
+
+#if !GN_VECTOR_16
 GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t z, insertion how)
 {
     gn_depth *z1 = t->first + at, *end = z1 + count;
@@ -177,28 +195,12 @@ GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t 
     }
 SPAN(span_first, FIRST)
 
-GN_INLINE void insert_any(const target *t, int32_t at, int32_t count, uint32_t z)
-{
-    if (t->how == FIRST)
-        insert_span(t, at, count, z, FIRST);
-    else if (t->how == TWO)
-        insert_span(t, at, count, z, TWO);
-    else if (t->how == TWICE)
-        insert_span(t, at, count, z, TWICE);
-    else if (t->how == MARKED)
-        insert_span(t, at, count, z, MARKED);
-    else
-        insert_span(t, at, count, z, RISING);
-}
-
 #if GN_VECTOR_16
-/* Texel by texel: such triangles cover few. */
 GN_INLINE void span_steep(const void *state, int32_t row, int32_t left, int32_t right)
 {
     const target *t = state;
     GN_TALLY(t->tally->centres += (uint32_t)(right - left);)
-    for (int32_t column = left; column < right; column++)
-        insert_any(t, row * t->stride + column, 1, gn_saturate(gn_wide_depth(&t->steep_plane, column, row)));
+    insert_steep_span(t, row, left, right);
 }
 SPAN(span_two, TWO)
 SPAN(span_twice, TWICE)
@@ -225,14 +227,20 @@ GN_INLINE void span_any(const void *state, int32_t row, int32_t left, int32_t ri
 {
     const target *t = state;
     int32_t at = row * t->stride + left, count = right - left;
+    uint32_t z = start_depth(t, row, left);
     GN_TALLY(t->tally->centres += (uint32_t)count;)
-    if (GN_LIKELY(!t->steep)) {
-        insert_any(t, at, count, start_depth(t, row, left));
-        return;
-    }
-    int64_t z = gn_wide_depth(&t->steep_plane, left, row); /* such triangles cover few texels */
-    for (; count; count--, at++, z += t->steep_plane.dx)
-        insert_any(t, at, 1, gn_saturate(z));
+    if (GN_UNLIKELY(t->steep))
+        insert_steep_span(t, row, left, right);
+    else if (t->how == FIRST)
+        insert_span(t, at, count, z, FIRST);
+    else if (t->how == TWO)
+        insert_span(t, at, count, z, TWO);
+    else if (t->how == TWICE)
+        insert_span(t, at, count, z, TWICE);
+    else if (t->how == MARKED)
+        insert_span(t, at, count, z, MARKED);
+    else
+        insert_span(t, at, count, z, RISING);
 }
 #endif
 
@@ -323,8 +331,8 @@ GN_INLINE void insert(target *t, const gn_rows *rows, const gn_window *window)
 }
 
 /* One whose plane is too steep for 32 bits. */
-static GN_NOINLINE void insert_steep(target *t, const gn_mesh *mesh, const gn_vertex *vertices, uint32_t triangle,
-                                     const gn_rows *rows, const gn_window *window)
+static GN_COLD void insert_steep(target *t, const gn_mesh *mesh, const gn_vertex *vertices, uint32_t triangle,
+                                 const gn_rows *rows, const gn_window *window)
 {
     uint32_t index[3];
     gn_triangle_indices(mesh, triangle, index);
@@ -340,8 +348,8 @@ static GN_NOINLINE void insert_steep(target *t, const gn_mesh *mesh, const gn_ve
 }
 
 /* A triangle with a corner beyond the planes or the guard band. */
-static GN_NOINLINE void insert_clipped(const gn_context *context, target *t, const gn_object *object, uint32_t triangle,
-                                       int culled, const gn_window *window)
+static GN_COLD void insert_clipped(const gn_context *context, target *t, const gn_object *object, uint32_t triangle,
+                                   int culled, const gn_window *window)
 {
     uint32_t index[3];
     gn_place corner[3];
@@ -352,16 +360,11 @@ static GN_NOINLINE void insert_clipped(const gn_context *context, target *t, con
     gn_clip_triangle(&polygon, &context->light_view, corner);
     if (polygon.area == 0 || (polygon.area > 0 ? 1 : -1) == culled)
         return;
-    const gn_vertex *v = polygon.v;
     gn_make_clipped_plane(&t->plane, &polygon);
     set_lanes(t);
-    for (int32_t i = 1; i + 1 < polygon.count; i++) {
-        int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
-        if (area == 0 || (area > 0) != (polygon.area > 0))
-            continue;
-        if (gn_find_rows(&rows, &v[0], area > 0 ? &v[i] : &v[i + 1], area > 0 ? &v[i + 1] : &v[i], window))
+    for (int32_t i = 1; i + 1 < polygon.count; i++)
+        if (gn_find_piece(&rows, &polygon, i, window))
             insert(t, &rows, window);
-    }
 }
 
 static void insert_mesh(const gn_context *context, target *t, uint32_t object_index, const gn_window *window)
@@ -431,24 +434,17 @@ gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker
     gn_depth bias = (gn_depth)(context->bias >> GN_DEPTH_SHIFT);
     switch (context->settings.surface) {
     case GN_CONSTANT:
-        for (size_t i = 0; i < count; i++)
-            z1[i] = add_saturated(z1[i], bias);
+    case GN_SECOND:
+        z2 = context->plan.layers == GN_LAYERS_TWO ? z2 : z1;
+        for (size_t i = 0; (bias || z2 != z1) && i < count; i++)
+            z1[i] = add_saturated(z2[i], bias);
         break;
     case GN_MIDPOINT:
-        for (size_t i = 0; i < count; i++)
-            z1[i] = dual(z1[i], z2[i], GN_FARTHEST);
-        break;
+        bias = GN_FARTHEST;
+        /* fall through */
     case GN_DUAL:
         for (size_t i = 0; i < count; i++)
             z1[i] = dual(z1[i], z2[i], bias);
-        break;
-    case GN_SECOND:
-        if (context->plan.layers == GN_LAYERS_TWO)
-            for (size_t i = 0; i < count; i++)
-                z1[i] = add_saturated(z2[i], bias);
-        else
-            for (size_t i = 0; bias && i < count; i++)
-                z1[i] = add_saturated(z1[i], bias);
         break;
     case GN_SLOPE: /* z2 is the accumulator */
         for (size_t i = 0; i < count; i++) {

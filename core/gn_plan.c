@@ -228,6 +228,8 @@ uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_se
     uint8_t *base = context ? context->shared : 0;
     uint64_t used = 0;
     uint32_t bands, levels, bins, pixels = (uint32_t)plan->region_width * plan->region_height;
+    int maps = settings->shadow == GN_SHADOW_MAP, receives = maps && settings->receiver;
+    int filters = maps && settings->reconstruction;
     gn_count_bins(plan, settings, &bands, &levels, &bins);
     gn_vertex *vertices = take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
     uint32_t *first = take(base, &used, bins ? ((uint64_t)bins + 1) * 4 : 0);
@@ -249,11 +251,11 @@ uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_se
         uint64_t plane = ((uint64_t)pixels + GN_ROW_PADDING) * 4;
         uint32_t *q = take(base, &used, plane), *triangle = take(base, &used, plane);
         gn_colour_pair *colours = take(base, &used, GN_COLOUR_CACHE * sizeof *colours);
-        gn_receiver_plane *planes = take(base, &used, settings->receiver ? GN_COLOUR_CACHE * sizeof *planes : 0);
-        uint8_t *fraction = take(base, &used, settings->reconstruction ? plan->region_width : 0);
+        gn_receiver_plane *planes = take(base, &used, receives ? GN_COLOUR_CACHE * sizeof *planes : 0);
+        uint8_t *fraction = take(base, &used, filters ? plan->region_width : 0);
         if (context) {
-            context->workers[i].planes = settings->receiver ? planes : 0;
-            context->workers[i].fraction = settings->reconstruction ? fraction : 0;
+            context->workers[i].planes = receives ? planes : 0;
+            context->workers[i].fraction = filters ? fraction : 0;
             context->workers[i].q = q;
             context->workers[i].triangle = triangle;
             context->workers[i].colours = colours;
@@ -262,22 +264,10 @@ uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_se
     return used;
 }
 
-/* Without what says nothing: shadow volumes have no map to receive from. */
-static gn_settings effective(const gn_settings *settings)
+gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings)
 {
-    gn_settings s = *settings;
-    if (s.shadow == GN_SHADOW_VOLUMES) {
-        s.receiver = 0;
-        s.reconstruction = 0;
-    }
-    return s;
-}
-
-gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *wanted)
-{
-    if (!plan || !scene || !wanted)
+    if (!plan || !scene || !settings)
         return GN_BAD_ARGUMENT;
-    const gn_settings used = effective(wanted), *settings = &used;
     gn_plan p = {0};
     counts c;
     gn_status status = check_settings(settings);
@@ -332,7 +322,11 @@ gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings
     gn_context empty = {0};
     *c = empty;
     c->scene = scene;
-    c->settings = effective(settings);
+    c->settings = *settings;
+    if (settings->shadow == GN_SHADOW_VOLUMES) { /* no map to receive from */
+        c->settings.receiver = 0;
+        c->settings.reconstruction = 0;
+    }
     c->plan = plan;
     lay_out_head(c, scene, settings, &plan);
     gn_plan counted;

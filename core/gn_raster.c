@@ -60,6 +60,12 @@ GN_INLINE slopes make_slopes(const gn_vertex *v0, const gn_vertex *v1, const gn_
     return s;
 }
 
+/* Where time matters less than flash. */
+static GN_COLD void find_slopes(slopes *s, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
+{
+    *s = make_slopes(v0, v1, v2, area);
+}
+
 /* round(512 |n| / A) with n's sign; 0 and *steep where that reaches 2^30. */
 GN_INLINE uint32_t depth_gradient(int64_t n, const slopes *s, int *steep)
 {
@@ -104,7 +110,7 @@ int gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_ver
 }
 
 /* round(512 |n| / A) with n's sign; *sheer where that may reach 2^40. */
-static int64_t steep_gradient(int64_t n, const slopes *s, int *sheer)
+static GN_COLD int64_t steep_gradient(int64_t n, const slopes *s, int *sheer)
 {
     int32_t shift;
     uint64_t q = quotient(n, s->reciprocal, s->area_shift, &shift);
@@ -119,10 +125,11 @@ static int64_t steep_gradient(int64_t n, const slopes *s, int *sheer)
     return n < 0 ? -(int64_t)q : (int64_t)q;
 }
 
-int gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                        int64_t area)
+GN_COLD int gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                                int64_t area)
 {
-    slopes s = make_slopes(v0, v1, v2, area);
+    slopes s;
+    find_slopes(&s, v0, v1, v2, area);
     int sheer = 0;
     plane->dx = steep_gradient(s.nx, &s, &sheer);
     plane->dy = steep_gradient(s.ny, &s, &sheer);
@@ -156,7 +163,8 @@ static GN_NOINLINE uint64_t q_gradient(int64_t n, const slopes *s, int *steep)
 
 void gn_make_q_plane(gn_q_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area)
 {
-    slopes s = make_slopes(v0, v1, v2, area);
+    slopes s;
+    find_slopes(&s, v0, v1, v2, area);
     int steep = 0;
     uint64_t gx = q_gradient(s.nx, &s, &steep), gy = q_gradient(s.ny, &s, &steep);
     if (GN_UNLIKELY(steep)) {

@@ -100,8 +100,8 @@ static void draw(target *t, const gn_rows *rows, const gn_window *window)
     GN_TALLY(t->tally->triangles++;)
 }
 
-static GN_NOINLINE void draw_clipped(const gn_context *context, target *t, const gn_object *object,
-                                     const uint32_t index[3], const gn_window *window)
+static GN_COLD void draw_clipped(const gn_context *context, target *t, const gn_object *object, const uint32_t index[3],
+                                 const gn_window *window)
 {
     gn_place corner[3];
     gn_polygon polygon;
@@ -114,13 +114,9 @@ static GN_NOINLINE void draw_clipped(const gn_context *context, target *t, const
     const gn_vertex *r1 = &v[polygon.reference], *r2 = r1 + 1;
     gn_make_q_plane(&t->plane, &v[0], polygon.area > 0 ? r1 : r2, polygon.area > 0 ? r2 : r1, polygon.area);
     gn_fit_q_plane(&t->plane, &polygon, context->shading.nothing + 1);
-    for (int32_t i = 1; i + 1 < polygon.count; i++) {
-        int64_t area = gn_area(&v[0], &v[i], &v[i + 1]);
-        if (area == 0 || (area > 0) != (polygon.area > 0))
-            continue;
-        if (gn_find_rows(&rows, &v[0], area > 0 ? &v[i] : &v[i + 1], area > 0 ? &v[i + 1] : &v[i], window))
+    for (int32_t i = 1; i + 1 < polygon.count; i++)
+        if (gn_find_piece(&rows, &polygon, i, window))
             draw(t, &rows, window);
-    }
 }
 
 static void draw_triangle(const gn_context *context, target *t, uint32_t object_index, uint32_t triangle,

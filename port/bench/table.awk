@@ -137,8 +137,8 @@ END {
     print "What a pixel costs over point and nearest where all texels agree"
     row("virtual samples, lit, directional", 14, "added", "lit-sun", "virtual")
     row("virtual samples, shadowed, directional", 14, "added", "dark-sun", "virtual")
-    row("virtual samples, lit, spot", 14, "added", "lit-spot", "virtual")
-    row("virtual samples, shadowed, spot", 14, "added", "dark-spot", "virtual")
+    row("virtual samples, lit, spot", "", "added", "lit-spot", "virtual")
+    row("virtual samples, shadowed, spot", "", "added", "dark-spot", "virtual")
     row("virtual samples always, lit", "", "added", "lit-sun", "virtual-always")
     row("plane bias, lit", "", "added", "lit-sun", "plane-bias")
     row("bilinear, lit", "", "added", "lit-sun", "bilinear")

@@ -4,4 +4,4 @@ RISCV_PORT = port/riscv/start.c port/riscv/virt_console.c port/stack.c port/sect
 RISCV_LINK = -nostdlib -T port/riscv/virt.ld -Lport -Wl,--gc-sections -Wl,--no-warn-rwx-segments
 
 # The UART writes to standard output; minstret counts instructions.
-RISCV_RUN = timeout 300 qemu-system-riscv32 -M virt -bios none -display none -monitor none -serial stdio -icount shift=0
+RISCV_RUN = timeout 900 qemu-system-riscv32 -M virt -bios none -display none -monitor none -serial stdio -icount shift=0

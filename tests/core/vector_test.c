@@ -1,6 +1,7 @@
 /* The inner loops with vectors and without write the same layers, the same Q and triangles, the same answers of the
- * shadow test. The library holds one of the two; the other is compiled here from the same sources, under other names,
- * and works on the library's own contexts. Cases: 3000 scenes, or GNOMON_CASES. */
+ * shadow test, with one texel and with virtual samples. The library holds one of the two; the other is compiled here
+ * from the same sources, under other names, and works on the library's own contexts. Cases: 3000 scenes, or
+ * GNOMON_CASES. */
 #include "gn_vector.h"
 
 enum { LIBRARY_HAS_VECTORS = GN_VECTOR };
@@ -52,6 +53,34 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
 #undef count_span
 #undef gn_rasterise_region
 
+/* The cascade, with votes of its own where there are no vectors. */
+#include "gn_cascade.h"
+#define make_lookup make_cascade_lookup
+#define test_box test_box_of_points
+#define compare compare_vote
+#define gn_point_bits twin_point_bits
+#define gn_start_points twin_start_points
+#define gn_find_points twin_find_points
+#define gn_cascade_row twin_cascade_row
+#define gn_virtual twin_virtual
+#define gn_virtual_always twin_virtual_always
+uint32_t gn_point_bits(const gn_context *context);
+void gn_start_points(const gn_context *context, gn_points *points);
+void gn_find_points(const gn_context *context, gn_points *points, uint32_t *q);
+void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count);
+#include "gn_cascade.c"
+#include "gn_points.c"
+#include "gn_virtual.c"
+#undef make_lookup
+#undef test_box
+#undef compare
+#undef gn_point_bits
+#undef gn_start_points
+#undef gn_find_points
+#undef gn_cascade_row
+#undef gn_virtual
+#undef gn_virtual_always
+
 /* The shadow test. */
 #define gn_shade_row twin_shade_row
 #define gn_falloff_row twin_falloff_row
@@ -59,6 +88,8 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
 #define gn_over_distance twin_over_distance
 void gn_shade_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
 void gn_falloff_row(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count);
+void gn_row_of_w(uint32_t *q, int32_t count, uint32_t shift);
+uint32_t gn_over_distance(uint32_t nearness, uint32_t u, uint32_t v, uint32_t tan_squared);
 #include "gn_shade.c"
 #undef gn_shade_row
 #undef gn_falloff_row
@@ -98,15 +129,19 @@ static void make_scene(random_scene *r)
 
 static gn_settings random_settings(void)
 {
-    static const uint8_t surfaces[] = {GN_CONSTANT, GN_MIDPOINT, GN_DUAL, GN_SECOND, GN_MIXED};
+    static const uint8_t surfaces[] = {GN_CONSTANT, GN_MIDPOINT, GN_DUAL, GN_SECOND, GN_MIXED, GN_SLOPE};
     gn_settings s = gn_default_settings((uint16_t)between(1, 60), (uint16_t)between(1, 40), 1);
     s.map_width = (uint16_t)between(1, 150);
     s.map_height = (uint16_t)between(1, 60);
     s.map_rows = (uint16_t)between(0, s.map_height);
     s.region_width = (uint16_t)between(0, s.width);
     s.region_height = (uint16_t)between(0, s.height);
-    s.surface = surfaces[between(0, 4)];
-    s.cull = s.surface == GN_CONSTANT ? (uint8_t)between(GN_CULL_NONE, GN_CULL_FRONT) : GN_CULL_NONE;
+    s.surface = surfaces[between(0, 5)];
+    s.slope = between(0, 4 << 16);
+    if (s.map_width > 1 && s.map_height > 1)
+        s.receiver = &gn_virtual;
+    s.cull = s.surface == GN_CONSTANT || s.surface == GN_SLOPE ? (uint8_t)between(GN_CULL_NONE, GN_CULL_FRONT)
+                                                               : GN_CULL_NONE;
     if (s.surface == GN_SECOND)
         s.cull = (uint8_t)(between(0, 1) ? GN_CULL_NONE : GN_CULL_FRONT);
     return s;
@@ -147,6 +182,7 @@ static gn_status random_views(gn_light *light, gn_camera *camera, const gn_scene
 typedef struct tally {
     unsigned failures;
     uint64_t scenes, texels, pixels, lit, shadowed, spots, trusted, orthographic;
+    uint64_t steep, rising, virtual_lit, virtual_shadowed;
 } tally;
 
 static void differs(tally *count, uint64_t n, const char *what, uint32_t column, uint32_t row, uint32_t library,
@@ -184,10 +220,70 @@ static void compare_layers(tally *count, uint64_t n, gn_context *context, gn_dep
     }
 }
 
+/* Triangles too steep for 32 bits, of the light pass that has begun. */
+static uint64_t count_steep(const gn_context *context)
+{
+    uint64_t steep = 0;
+    for (uint32_t o = 0; o < context->scene->object_count; o++) {
+        const gn_mesh *mesh = context->scene->objects[o].mesh;
+        const gn_vertex *v = context->vertices + context->objects[o].first_vertex;
+        for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+            uint32_t index[3];
+            gn_depth_plane plane;
+            gn_triangle_indices(mesh, t, index);
+            const gn_vertex *v0 = &v[index[0]], *v1 = &v[index[1]], *v2 = &v[index[2]];
+            int64_t area = v0->depth && v1->depth && v2->depth ? gn_area(v0, v1, v2) : 0;
+            steep += area && gn_make_depth_plane(&plane, v0, area > 0 ? v1 : v2, area > 0 ? v2 : v1, area);
+        }
+    }
+    return steep;
+}
+
+/* The same context with rows of the map as long as the other code wants them; what the map is, is for the caller to
+ * free. */
+static gn_context packed_otherwise(const gn_context *context)
+{
+    gn_context other = *context;
+    uint32_t width = context->settings.map_width, height = context->settings.map_height;
+    other.map_stride = width + GN_ROW_PADDING;
+    other.map = grown(0, ((size_t)other.map_stride * height + SLACK) * sizeof *other.map);
+    for (uint32_t row = 0; row < height; row++)
+        memcpy(other.map + row * other.map_stride, context->map + row * context->map_stride, width * sizeof *other.map);
+    if (other.settings.receiver)
+        other.settings.receiver = &twin_virtual;
+    return other;
+}
+
+/* One row by virtual samples, from what visibility left in the worker's Q. */
+static void compare_cascade(tally *count, uint64_t n, gn_context *context, gn_context *other, uint32_t from, int32_t x,
+                            int32_t y, int32_t across)
+{
+    static uint32_t kept[60];
+    gn_worker *w = &context->workers[0];
+    uint32_t *q = w->q + from, library[60];
+    memcpy(kept, q, (size_t)across * 4);
+    gn_cascade_row(context, w, from, x, y, across);
+    memcpy(library, q, (size_t)across * 4);
+    memcpy(q, kept, (size_t)across * 4);
+    twin_cascade_row(other, w, from, x, y, across);
+    for (int32_t i = 0; i < across; i++) {
+        if (w->triangle[from + (uint32_t)i] == GN_NO_TRIANGLE)
+            continue;
+        /* a directional light asks for the sign alone */
+        uint32_t apart = library[i] ^ q[i];
+        if (context->light.kind == GN_SPOT ? apart != 0 : apart >> 31)
+            differs(count, n, "virtual samples", (uint32_t)(x + i), (uint32_t)y, library[i], q[i]);
+        count->virtual_lit += !(library[i] >> 31);
+        count->virtual_shadowed += library[i] >> 31;
+    }
+    memcpy(q, kept, (size_t)across * 4);
+}
+
 static void compare_regions(tally *count, uint64_t n, gn_context *context, uint32_t *kept)
 {
     const gn_plan *plan = &context->plan;
     gn_worker *w = &context->workers[0];
+    gn_context other = packed_otherwise(context);
     int32_t width = context->settings.width, height = context->settings.height;
     for (int32_t y = 0; y < height; y += plan->region_height) {
         for (int32_t x = 0; x < width; x += plan->region_width) {
@@ -210,8 +306,10 @@ static void compare_regions(tally *count, uint64_t n, gn_context *context, uint3
             memcpy(shaded, q, (size_t)pixels * 4);
             for (int32_t row = 0; row < window.row1 - y; row++) {
                 uint32_t *library = q + row * across, *twin = shaded + row * across;
+                if (context->settings.receiver)
+                    compare_cascade(count, n, context, &other, (uint32_t)(row * across), x, y + row, across);
                 gn_shade_row(context, library, x, y + row, across);
-                twin_shade_row(context, twin, x, y + row, across);
+                twin_shade_row(&other, twin, x, y + row, across);
                 for (int32_t i = 0; i < across; i++) {
                     int seen = triangle[row * across + i] != GN_NO_TRIANGLE;
                     if (library[i] != twin[i])
@@ -222,6 +320,7 @@ static void compare_regions(tally *count, uint64_t n, gn_context *context, uint3
             }
         }
     }
+    free(other.map);
 }
 
 static void compare_scene(tally *count, uint64_t n)
@@ -251,6 +350,8 @@ static void compare_scene(tally *count, uint64_t n)
         status = gn_light_begin(context, &light);
     if (status == GN_OK) {
         compare_layers(count, n, context, kept_layers);
+        count->steep += count_steep(context);
+        count->rising += settings.surface == GN_SLOPE;
         status = gn_camera_begin(context, &camera);
     }
     if (status == GN_OK) {
@@ -275,11 +376,16 @@ int main(int argc, char **argv)
     ok(!count.failures, "loops with and without vectors agree bit for bit, in %llu scenes",
        (unsigned long long)count.scenes);
     ok(count.scenes > cases * 3 / 4 && count.lit > 1000 && count.shadowed > 1000 && count.texels > 100000 &&
-           count.spots > cases / 20 && count.trusted > cases / 20 && count.orthographic > cases / 20,
-       "%llu texels, %llu pixels, %llu of them lit and %llu shadowed", (unsigned long long)count.texels,
-       (unsigned long long)count.pixels, (unsigned long long)count.lit, (unsigned long long)count.shadowed);
-    note("the library works %s vectors; %llu spot lights, %llu boxes around everything, %llu orthographic cameras",
+           count.virtual_lit > 1000 && count.virtual_shadowed > 1000 && count.steep > cases / 4 &&
+           count.rising > cases / 20 && count.spots > cases / 20 && count.trusted > cases / 20 &&
+           count.orthographic > cases / 20,
+       "%llu texels, %llu pixels, %llu of them lit and %llu shadowed; by virtual samples %llu and %llu",
+       (unsigned long long)count.texels, (unsigned long long)count.pixels, (unsigned long long)count.lit,
+       (unsigned long long)count.shadowed, (unsigned long long)count.virtual_lit,
+       (unsigned long long)count.virtual_shadowed);
+    note("the library works %s vectors; %llu spot lights, %llu boxes around everything, %llu orthographic cameras, "
+         "%llu surfaces with slope, %llu steep triangles",
          LIBRARY_HAS_VECTORS ? "with" : "without", (unsigned long long)count.spots, (unsigned long long)count.trusted,
-         (unsigned long long)count.orthographic);
+         (unsigned long long)count.orthographic, (unsigned long long)count.rising, (unsigned long long)count.steep);
     return tap_done();
 }

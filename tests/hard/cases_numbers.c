@@ -561,22 +561,29 @@ static void run_limits(hard_row *row)
 static const hard_case cases[] = {
     {.name = "spot_100",
      .group = GROUP,
-     .flags = LONG,
+     .flags = LONG | WITH_RECEIVERS,
      .title = "spot light 16 m away, near : far = 1 : 100",
      .expected = "none errs",
+     .receivers = "none errs",
      .advice = "As it should be.",
      .build = build_spot_100,
      .by_hand = far_spot_by_hand},
     {.name = "spot_1000",
      .group = GROUP,
-     .flags = LONG,
+     .flags = LONG | WITH_RECEIVERS,
      .title = "1 : 1000",
      .expected = "constant: no shadow, 9.8 %: 2 texels at the near end are 3.7 m at the far end; the others none",
+     .receivers =
+         "a bias in shares of the range, 0.0001 or 0.0005, is more than the metre between plate and floor: no shadow",
      .advice =
          "A bias in texels is converted at sqrt(near far): for spot lights give it in metres, or take second depth.",
      .build = build_spot_1000,
      .by_hand = far_spot_by_hand,
-     .methods = {[COLUMN_CONSTANT] = LIGHT(8, 9.9)}},
+     /* Stored depth at w of 16 m: the range's share of a metre is near / w^2 = 6e-5. */
+     .methods = {[COLUMN_CONSTANT] = LIGHT(8, 9.9),
+                 [COLUMN_ADAPTIVE] = LIGHT(8, 9.9),
+                 [COLUMN_SLOPE] = LIGHT(8, 9.9),
+                 [COLUMN_PLANE_BIAS] = LIGHT(8, 9.9)}},
     {.name = "spot_10000",
      .group = GROUP,
      .title = "1 : 10^4",
@@ -613,7 +620,9 @@ static const hard_case cases[] = {
      .expected = "as under a sun: none errs",
      .advice = "As it should be.",
      .build = build_distant_spot,
-     .by_hand = distant_spot_by_hand},
+     .by_hand = distant_spot_by_hand,
+     /* tie_at_a_foot (cases_light.c). */
+     .methods = {[COLUMN_AUTO] = LIGHT(0, 0.3)}},
     {.name = "world_limit",
      .group = GROUP,
      .title = "the block, corners at +-2^24",
@@ -694,12 +703,15 @@ static const hard_case cases[] = {
     {.name = "camera_inside",
      .group = GROUP,
      .title = "camera inside a solid; all is dark",
-     .expected = "second depth, mixed, auto: half of the floor and the far wall are lit, 28 %; constant, dual: a strip "
+     .expected = "second depth, mixed: half of the floor and the far wall are lit, 28 %; auto all of them; constant, "
+                 "dual: a strip "
                  "below the ceiling, 1 %",
+     .receivers = "second, mixed + virtual: all of the floor and the far wall, 55.1 %, as they tie with themselves; "
+                  "the others none",
      .advice = "A room is not a solid seen from outside: give its walls thickness, or mark it open.",
      .build = build_camera_inside,
      .by_hand = all_dark_by_hand,
-     .flags = NO_LIGHT,
+     .flags = NO_LIGHT | WITH_RECEIVERS,
      .picture = COLUMN_SECOND + 1,
      /* They are the back faces that the map holds, compared with themselves: of each texel the half nearer to the light
       * is lit. The floor fills 38.3 % of the picture, the far wall 16.8 %: 27.6 %; pixel by pixel 28.0 %. The floor's
@@ -710,7 +722,10 @@ static const hard_case cases[] = {
                  [COLUMN_DUAL] = LIGHT(0.5, 1.5),
                  [COLUMN_SECOND] = LIGHT(26.6, 29.4),
                  [COLUMN_MIXED] = LIGHT(26.6, 29.4),
-                 [COLUMN_AUTO] = LIGHT(26.6, 29.4)}},
+                 [COLUMN_AUTO] = LIGHT(52, 57),
+                 [COLUMN_SECOND_VIRTUAL] = LIGHT(52, 57),
+                 [COLUMN_MIXED_VIRTUAL] = LIGHT(52, 57),
+                 [COLUMN_FILTER] = LIGHT(40, 57)}},
     {.name = "light_inside",
      .group = GROUP,
      .title = "spot light inside a solid; all is dark",

@@ -331,15 +331,21 @@ static void check_l_shape(hard_row *row)
 static const hard_case cases[] = {
     {.name = "table_acne",
      .group = GROUP,
-     .flags = LONG,
+     .flags = LONG | WITH_RECEIVERS,
      .source = "W&M fig. 4",
      .title = "table on a floor, bias 1/4 texel",
      .expected = "constant, dual: acne on a third of what is lit; the others none",
+     .receivers = "adaptive: a strip before the foot of shadows, 0.6 % at most; the others none",
      .advice = "A constant bias must exceed half a texel's slope: 0.5 cot e texels for light e above the surface.",
      .build = build_table_acne,
      .by_hand = table_by_hand,
      .picture = COLUMN_CONSTANT + 1,
-     .methods = {[COLUMN_CONSTANT] = SHADOW(26, 31), [COLUMN_DUAL] = SHADOW(26, 31)}},
+     /* half_texel_before_a_shadow: adaptive holds the nearest depth. A lit point of the floor behind its texel's centre
+      * is behind what that holds; where the next row is shadowed it is behind that, too, and all four texels vote for
+      * shadow. At most half a row, t / 2 sin e, along the front edges of shadows: 1.2 m of the top and 0.25 m of legs,
+      * 0.031 m: 0.55 %, a pixel's share more. */
+     .methods =
+         {[COLUMN_CONSTANT] = SHADOW(26, 31), [COLUMN_DUAL] = SHADOW(26, 31), [COLUMN_ADAPTIVE] = SHADOW(0.05, 0.65)}},
     {.name = "table_detached",
      .group = GROUP,
      .source = "W&M fig. 4",
@@ -357,35 +363,39 @@ static const hard_case cases[] = {
      .expected = "no constant bias is right: 2 texels leave acne on the ramp, 1.3 %; second depth needs none. "
                  "Midpoint: the ramp's "
                  "end, 0.7 % at most.",
+     .receivers = "the same",
      .advice = "For scenes of solids: second depth, which `auto` takes.",
      .build = build_table_and_ramp,
      .by_hand = ramp_by_hand,
      .check = check_no_bias_suits,
-     .flags = LONG,
+     .flags = LONG | WITH_RECEIVERS,
      /* The ramp, 0.8 m x 0.5 m: a texel's half spans 3.56 t, of which 2 t are forgiven: (3.56 - 2) / 7.12 of it is
       * dark, 0.088 m^2, 1.05 %; a row of texels is t / sin 8 = 0.22 m long, so the ramp has 3 or 4 of them and the
       * figure is good to one: 0.26 % each, 1.3 % at most and the share of a pixel, 1.5 %. 2 t is less than the 2.31 t
       * at which a leg loses its shadow. Midpoint: the ramp is thin only where it ends; its last row at most, half of
       * it: 0.22 m x 0.5 m / 2, 0.7 %. */
-     .methods =
-         {[COLUMN_CONSTANT] = SHADOW(0.7, 1.5), [COLUMN_MIDPOINT] = SHADOW(0, 0.7), [COLUMN_DUAL] = SHADOW(0.7, 1.5)}},
+     .methods = {[COLUMN_CONSTANT] = SHADOW(0.7, 1.5),
+                 [COLUMN_MIDPOINT] = SHADOW(0, 0.7),
+                 [COLUMN_DUAL] = SHADOW(0.7, 1.5),
+                 [COLUMN_ADAPTIVE] = SHADOW(0.05, 0.65)}},
     {.name = "thin_slab",
      .group = GROUP,
+     .flags = WITH_RECEIVERS,
      .source = "W&M fig. 7",
      .title = "slab 1/10 texel thick, sun at 30 degrees",
-     .expected = "second depth, mixed, auto and midpoint: a third to a half of its top shadows itself",
+     .expected = "second depth, mixed and midpoint: a third to a half of its top shadows itself; auto none",
+     .receivers = "none errs",
      .advice =
          "Second depth needs solids thicker than half a texel, 0.5 t cos e. Thin ones: `dual`, or mark them open and "
-         "take `mixed`. Virtual samples will mend it.",
+         "take `mixed`; or virtual samples, as `auto` has them.",
      .build = build_thin_slab,
      .by_hand = thin_slab_by_hand,
      .picture = COLUMN_SECOND + 1,
      /* A point d behind its texel's centre on the map is d cot 30 deeper, the back of the slab 2 x t / 10: shadowed
-      * from d = 0.1155 t on, midpoint 0.0577 t; pixels are t / 6 apart: 2 or 3 of 6. The top is 1 m x 1.4 m, 16.8 %. */
-     .methods = {[COLUMN_MIDPOINT] = SHADOW(5, 8.5),
-                 [COLUMN_SECOND] = SHADOW(5, 8.5),
-                 [COLUMN_MIXED] = SHADOW(5, 8.5),
-                 [COLUMN_AUTO] = SHADOW(5, 8.5)}},
+      * from d = 0.1155 t on, midpoint 0.0577 t; pixels are t / 6 apart: 2 or 3 of 6. The top is 1 m x 1.4 m, 16.8 %.
+      * With virtual samples the top is compared at the centre, where its own depth is less than the slab's back. */
+     .methods =
+         {[COLUMN_MIDPOINT] = SHADOW(5, 8.5), [COLUMN_SECOND] = SHADOW(5, 8.5), [COLUMN_MIXED] = SHADOW(5, 8.5)}},
     {.name = "unshadowing",
      .group = GROUP,
      .source = "W&E fig. 2a",
@@ -401,23 +411,25 @@ static const hard_case cases[] = {
      .methods = {[COLUMN_CONSTANT] = SHADOW(5.5, 6.7), [COLUMN_DUAL] = SHADOW(5.5, 6.7)}},
     {.name = "silhouette",
      .group = GROUP,
+     .flags = WITH_RECEIVERS,
      .source = "W&E fig. 2b",
      .title = "wedge that falls to a sharp silhouette",
-     .expected = "midpoint: self-shadow, one texel in all (1.7 %); second depth, mixed: half of that",
-     .advice = "Solids with sharp edges towards the light: `dual`, which culls back faces.",
+     .expected = "midpoint: self-shadow, one texel in all (1.7 %); second depth, mixed: half of that; auto none",
+     .receivers = "none errs",
+     .advice = "Solids with sharp edges towards the light: virtual samples, or `dual`, which culls back faces.",
      .build = build_silhouette,
      .by_hand = silhouette_by_hand,
      .picture = COLUMN_MIDPOINT + 1,
-     .methods = {[COLUMN_MIDPOINT] = SHADOW(1.4, 2),
-                 [COLUMN_SECOND] = SHADOW(0.7, 1),
-                 [COLUMN_MIXED] = SHADOW(0.7, 1),
-                 [COLUMN_AUTO] = SHADOW(0.7, 1)}},
+     /* Virtual samples: at the centre the front is nearer than the back, however thin the wedge. */
+     .methods =
+         {[COLUMN_MIDPOINT] = SHADOW(1.4, 2), [COLUMN_SECOND] = SHADOW(0.7, 1), [COLUMN_MIXED] = SHADOW(0.7, 1)}},
     {.name = "near_receiver",
      .group = GROUP,
-     .flags = LONG,
+     .flags = LONG | WITH_RECEIVERS,
      .source = "W&E fig. 3",
      .title = "plate 4 texels over a floor, bias 8 texels",
      .expected = "constant: no shadow at all (2.0 to 2.8 %); the others none",
+     .receivers = "none errs",
      .advice = "As for the table's legs: a bias larger than the gap takes the shadow away.",
      .build = build_near_receiver,
      .by_hand = near_receiver_by_hand,
@@ -440,13 +452,22 @@ static const hard_case cases[] = {
      .title = "receiver of slope 16:1 close below its occluder (midpoint without back faces)",
      .expected =
          "midpoint: 15.5 cm lit (4.6 %); second depth, mixed, auto none. Constant and dual: acne where lit (12 %)",
+     .receivers = "second + virtual, mixed + virtual, adaptive none. Slope: one texel, whose centre is level, 2.9 %; "
+                  "plane bias: its half texel, 0.5 m, takes the shadow, 9.4 %",
      .advice = "As above. No bias in texels suits faces that are nearly along the light; second depth needs none.",
      .build = build_steep_receiver,
      .by_hand = steep_receiver_by_hand,
-     .flags = CULL_BACK,
+     .flags = CULL_BACK | WITH_RECEIVERS,
      .picture = COLUMN_MIDPOINT + 1,
-     .methods =
-         {[COLUMN_CONSTANT] = SHADOW(11.5, 13), [COLUMN_MIDPOINT] = LIGHT(3.5, 4.9), [COLUMN_DUAL] = SHADOW(11.5, 13)}},
+     /* Slope: the texel whose centre sees the solid's level top has no slope, and holds the face from 0.68 to 0.84,
+      * where lit 0.9 m wide: 0.144 m^2, 2.9 %, less 0.031 m at the border 2.3 %. Plane bias: half a texel of the face
+      * is 8 t = 0.5 m, and 0.0005 of the range 4 mm: all above 0.366 is lit, up to 0.68, 1.5 m wide: 9.4 %, less 0.031
+      * m at two borders 7.5 %. */
+     .methods = {[COLUMN_CONSTANT] = SHADOW(11.5, 13),
+                 [COLUMN_MIDPOINT] = LIGHT(3.5, 4.9),
+                 [COLUMN_DUAL] = SHADOW(11.5, 13),
+                 [COLUMN_SLOPE] = SHADOW(2.2, 2.95),
+                 [COLUMN_PLANE_BIAS] = LIGHT(7.4, 9.5)}},
     {.name = "l_shape",
      .group = GROUP,
      .source = "W&E fig. 5",
@@ -454,12 +475,13 @@ static const hard_case cases[] = {
      .expected =
          "self-shadow at the silhouettes unless back faces are culled, then midpoint lights what is shadowed; constant "
          "lights the crease; dual without back faces errs least.",
+     .receivers = "second + virtual as second depth; of the others no amount is derived",
      .advice =
          "Dual without back faces (the default of `dual`) is the best of the paper's methods. Second depth lights the "
          "crease by up to half a texel, where front and back meet.",
      .build = build_l_shape,
      .check = check_l_shape,
-     .flags = CULL_BACK,
+     .flags = CULL_BACK | WITH_RECEIVERS,
      .picture = COLUMN_CONSTANT + 1,
      /* Second depth: edges that fall sideways by up to 0.47 leave less than 0.47 x t/2 of thickness within 0.12 t of
       * them, on some 2.5 m: 0.5 %. A texel whose centre lies before the crease holds the L's bottom; half a texel, 1/16
@@ -469,7 +491,13 @@ static const hard_case cases[] = {
                  [COLUMN_DUAL] = ANYTHING,
                  [COLUMN_SECOND] = {0, 0.5, 0, 0.6, 0},
                  [COLUMN_MIXED] = {0, 0.5, 0, 0.6, 0},
-                 [COLUMN_AUTO] = {0, 0.5, 0, 0.6, 0}}},
+                 [COLUMN_AUTO] = {0, 0.5, 0, 0.6, 0},
+                 [COLUMN_SECOND_VIRTUAL] = {0, 0.5, 0, 0.6, 0},
+                 [COLUMN_MIXED_VIRTUAL] = {0, 0.5, 0, 0.6, 0},
+                 [COLUMN_ADAPTIVE] = ANYTHING,
+                 [COLUMN_SLOPE] = ANYTHING,
+                 [COLUMN_PLANE_BIAS] = ANYTHING,
+                 [COLUMN_FILTER] = ANYTHING}},
 };
 
 const hard_list papers_cases = {cases, COUNT(cases)};

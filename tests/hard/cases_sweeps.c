@@ -246,13 +246,21 @@ static void run_maps(hard_row *row)
             row_measure(row, method, &s);
             const outcome *o = &row->outcomes[method];
             total[i][method] = o->shadow_percent + o->light_percent;
+            if (method == COLUMN_AUTO && (maps[i][0] < 2 || maps[i][1] < 2)) {
+                promise(row, !o->ran, 0, "%s_%ux%u_%s_is_refused", row->about->name, maps[i][0], maps[i][1],
+                        method_names[method]);
+                continue;
+            }
             promise(row, o->ran && o->coverage == 0, 0, "%s_%ux%u_%s_renders", row->about->name, maps[i][0], maps[i][1],
                     method_names[method]);
             if (i >= 5)
                 promise(row, own_percent(row, o, method) <= own_limit[method], 0, "%s_%ux%u_%s_errs_as_derived",
                         row->about->name, maps[i][0], maps[i][1], method_names[method]);
         }
-        row_remark(row, "%s%ux%u %.1f", i ? ", " : "`auto`, total: ", maps[i][0], maps[i][1], total[i][COLUMN_AUTO]);
+        if (row->outcomes[COLUMN_AUTO].ran)
+            row_remark(row, ", %ux%u %.1f", maps[i][0], maps[i][1], total[i][COLUMN_AUTO]);
+        else
+            row_remark(row, "%s%ux%u", i ? ", " : "`auto`: refused: ", maps[i][0], maps[i][1]);
         row_end(row);
     }
     row_remark(row, " %%.");

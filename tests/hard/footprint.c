@@ -307,6 +307,24 @@ int footprint_differs(footprint *f, size_t pixel, uint8_t truth)
     return different;
 }
 
+int footprint_differs_about(const footprint *f, size_t pixel, uint8_t truth, int radius)
+{
+    const double slack = 1.0 / 32;
+    map_frame m = frame_of(f);
+    double place[2];
+    texel_place(f, &m, f->points[pixel], place);
+    int first_column = (int)floor(place[0] - slack) - radius, last_column = (int)floor(place[0] + slack) + radius;
+    int first_row = (int)floor(place[1] - slack) - radius, last_row = (int)floor(place[1] + slack) + radius;
+    for (int row = first_row; row <= last_row; row++)
+        for (int column = first_column; column <= last_column; column++)
+            for (int i = 0; i < 9; i++) {
+                const double centre[2] = {column + 0.5 + (i % 3 - 1) * slack, row + 0.5 + (i / 3 - 1) * slack};
+                if (centre_differs(f, &m, f->receiver[pixel], centre, truth))
+                    return 1;
+            }
+    return 0;
+}
+
 int footprint_is_edge_on(const footprint *f, size_t pixel)
 {
     double way[3];

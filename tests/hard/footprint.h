@@ -37,6 +37,9 @@ void footprint_free(footprint *f);
 /* Is some answer among the texel centres that pixel may be compared at, on its receiver's plane, not `truth`? */
 int footprint_differs(footprint *f, size_t pixel, uint8_t truth);
 
+/* The same of all texels at most `radius` columns and rows from that. Worked out anew each time. */
+int footprint_differs_about(const footprint *f, size_t pixel, uint8_t truth, int radius);
+
 /* May a shadow test at this pixel be decided on a plane that the light sees edge-on (within 2^-24)? Then its depth at
  * another place means nothing. */
 int footprint_is_edge_on(const footprint *f, size_t pixel);

@@ -84,7 +84,8 @@ static void check_outcome(hard_row *row, int method)
 
 static void run_methods(hard_row *row)
 {
-    for (int method = 0; method < COLUMN_COUNT; method++) {
+    int last = row->about->flags & WITH_RECEIVERS ? COLUMN_ALL : COLUMN_COUNT;
+    for (int method = 0; method < last; method++) {
         gn_settings settings = method_settings(&row->packed, method, row->about->flags);
         row_measure(row, method, &settings);
         if (row->outcomes[method].ran)
@@ -109,8 +110,9 @@ static void run_case(hard_row *row)
 
 /* ---- the table ------------------------------------------------------------------------------------------------- */
 
-static const char *const column_names[COLUMN_COUNT] = {"constant", "midpoint", "dual",   "second depth",
-                                                       "mixed",    "auto",     "volumes"};
+static const char *const column_names[COLUMN_ALL] = {
+    "constant",         "midpoint",        "dual",     "second depth", "mixed",      "auto",       "volumes",
+    "second + virtual", "mixed + virtual", "adaptive", "slope",        "plane bias", "auto + pcf5"};
 
 static void print_cell(const hard_row *row, int method)
 {
@@ -128,7 +130,7 @@ static void print_cell(const hard_row *row, int method)
 static int known_to_fail(const hard_row *row)
 {
     int count = 0;
-    for (int method = 0; method < COLUMN_COUNT; method++) {
+    for (int method = 0; method < COLUMN_ALL; method++) {
         const outcome *o = &row->outcomes[method];
         count += o->ran && !o->met && row->about->methods[method].unmet;
     }
@@ -143,21 +145,51 @@ static void print_row(const hard_row *row)
     for (int method = 0; method < COLUMN_COUNT; method++)
         print_cell(row, method);
     printf(" %s", c->advice);
-    for (int method = 0; row->unmet && method < COLUMN_COUNT; method++)
+    for (int method = 0; row->unmet && method < COLUMN_ALL; method++)
         if (row->outcomes[method].ran && !row->outcomes[method].met && c->methods[method].unmet)
             printf(" **Not met**, %s: %s.", column_names[method], c->methods[method].unmet);
     printf("%s |\n", row->unmet > known_to_fail(row) ? " **Not met.**" : "");
 }
 
+static void print_head(int first, int last, const char *end)
+{
+    printf("\n| case | expected |");
+    for (int method = first; method < last; method++)
+        printf(" %s |", column_names[method]);
+    printf("%s\n|---|---|", end);
+    for (int method = first; method < last; method++)
+        printf("---|");
+    printf("%s\n", *end ? "---|" : "");
+}
+
+/* A group's second table is kept until its first one is done. */
+static struct {
+    hard_row *rows[100];
+    int count;
+} receivers;
+
+static void print_receivers(void)
+{
+    if (receivers.count == 0)
+        return;
+    printf("\nWith virtual samples, and with their rivals:\n");
+    print_head(COLUMN_SECOND_VIRTUAL, COLUMN_ALL, "");
+    for (int i = 0; i < receivers.count; i++) {
+        const hard_row *row = receivers.rows[i];
+        printf("| %s | %s |", row->about->title, row->about->receivers);
+        for (int method = COLUMN_SECOND_VIRTUAL; method < COLUMN_ALL; method++)
+            print_cell(row, method);
+        printf("\n");
+        free(receivers.rows[i]);
+    }
+    receivers.count = 0;
+}
+
 static void print_group(const char *group)
 {
-    printf("\n## %s\n\n| case | expected |", group);
-    for (int method = 0; method < COLUMN_COUNT; method++)
-        printf(" %s |", column_names[method]);
-    printf(" what to know |\n|---|---|");
-    for (int method = 0; method < COLUMN_COUNT; method++)
-        printf("---|");
-    printf("---|\n");
+    print_receivers();
+    printf("\n## %s\n", group);
+    print_head(0, COLUMN_COUNT, " what to know |");
 }
 
 /* ---- pictures and scenes --------------------------------------------------------------------------------------- */
@@ -237,7 +269,10 @@ static int do_case(const hard_case *c)
         run_case(row);
     if (run.mode == MODE_TABLE)
         print_row(row);
-    free(row);
+    if (run.mode == MODE_TABLE && c->flags & WITH_RECEIVERS && receivers.count < (int)COUNT(receivers.rows))
+        receivers.rows[receivers.count++] = row;
+    else
+        free(row);
     return failed;
 }
 
@@ -256,6 +291,7 @@ static int do_cases(int names, char **name)
             failed |= do_case(c);
             done++;
         }
+    print_receivers();
     if (!done)
         say("no such case");
     return failed || !done;

@@ -19,7 +19,9 @@
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-enum method {
+/* What a case is rendered with: columns of the table. Those up to COLUMN_VOLUMES every case has; those with virtual
+ * samples and their rivals only where the case is about what they change (WITH_RECEIVERS). */
+enum column {
     COLUMN_CONSTANT,
     COLUMN_MIDPOINT,
     COLUMN_DUAL,
@@ -27,10 +29,19 @@ enum method {
     COLUMN_MIXED,
     COLUMN_AUTO,
     COLUMN_VOLUMES,
-    COLUMN_COUNT
+    COLUMN_SECOND_VIRTUAL,
+    COLUMN_MIXED_VIRTUAL,
+    COLUMN_ADAPTIVE,
+    COLUMN_SLOPE,
+    COLUMN_PLANE_BIAS,
+    COLUMN_FILTER, /* auto, 5 x 5 texels */
+    COLUMN_ALL,
+    COLUMN_COUNT = COLUMN_SECOND_VIRTUAL /* of those that every case has */
 };
 
-extern const char *const method_names[COLUMN_COUNT];
+enum { FILTER_RADIUS = 2 };
+
+extern const char *const method_names[COLUMN_ALL];
 
 /* Own errors in per cent of the pixels that see a surface, at least and at most; all zero: none. Of volumes: errors of
  * any kind that are not near a tie. */
@@ -72,7 +83,7 @@ typedef struct hard_row {
     double unit; /* world integers a metre */
     int32_t origin[3];
     uint8_t *near; /* near a tie, or on one */
-    outcome outcomes[COLUMN_COUNT];
+    outcome outcomes[COLUMN_ALL];
     int met, unmet;   /* promises kept and broken */
     char remark[400]; /* figures of this run for the table */
 } hard_row;
@@ -92,12 +103,13 @@ static inline int lit_unless(int shadowed)
 
 /* Flags of a case. */
 enum {
-    NO_SHADOW = 1,  /* truly no shadowed pixel: `expected` says why */
-    NO_LIGHT = 2,   /* truly no lit pixel */
-    LONG = 4,       /* not in the short list that the slower builds run */
-    CULL_BACK = 8,  /* midpoint: with back faces culled */
-    CULL_NONE = 16, /* dual: without culling */
-    COUNT_TIES = 32 /* pixels on an exact tie of the truth count as well: the case is about them */
+    NO_SHADOW = 1,      /* truly no shadowed pixel: `expected` says why */
+    NO_LIGHT = 2,       /* truly no lit pixel */
+    LONG = 4,           /* not in the short list that the slower builds run */
+    CULL_BACK = 8,      /* midpoint: with back faces culled */
+    CULL_NONE = 16,     /* dual: without culling */
+    COUNT_TIES = 32,    /* pixels on an exact tie of the truth count as well: the case is about them */
+    WITH_RECEIVERS = 64 /* run the columns from COLUMN_SECOND_VIRTUAL on, too */
 };
 
 typedef struct hard_case {
@@ -109,8 +121,9 @@ typedef struct hard_case {
     void (*check)(hard_row *row);          /* promises beyond those of the methods */
     void (*run)(hard_row *row);            /* in place of build: a sweep that fills the row itself */
     unsigned flags;
-    int picture; /* method of the picture, + 1; 0: none */
-    expectation methods[COLUMN_COUNT];
+    int picture;           /* method of the picture, + 1; 0: none */
+    const char *receivers; /* WITH_RECEIVERS: what is expected of those columns */
+    expectation methods[COLUMN_ALL];
 } hard_case;
 
 typedef struct hard_list {
@@ -133,15 +146,18 @@ int hard_is_short(void);
 
 /* ---- measuring (measure.c) --------------------------------------------------------------------------------------- */
 
-/* The settings of a method for a scene: presets as those of `gnomon render --method`. Mask on, no colour. */
+/* The settings of a column for a scene: those of `gnomon render --method`, with the case's own bias where it is in
+ * texels. Mask on, no colour. */
 gn_settings method_settings(const packed_scene *packed, int method, unsigned flags);
 
 /* Render; the mask (width x height) is on the heap. 0, or -1 and the problem. colour: not 0: the colours, 3 bytes a
  * pixel. */
 int method_render(packed_scene *packed, const gn_settings *settings, uint8_t **mask, uint8_t **colour, problem *why);
 
-/* Compare o->mask with the row's truth. */
-void measure(hard_row *row, outcome *o);
+/* Compare o->mask, which the method gave, with the row's truth. Of a filter every pixel counts as wrong that is not
+ * wholly lit or wholly shadowed as in the truth, and as its own where the truth is the same at all centres it weighs.
+ */
+void measure(hard_row *row, outcome *o, int method);
 
 double percent_of(const hard_row *row, uint64_t count);
 

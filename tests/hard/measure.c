@@ -2,39 +2,37 @@
 #include "hard.h"
 
 #include "memory.h"
+#include "method.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-const char *const method_names[COLUMN_COUNT] = {"constant", "midpoint", "dual",   "second_depth",
-                                                "mixed",    "auto",     "volumes"};
-
-static int all_are_closed(const packed_scene *packed)
-{
-    for (uint32_t i = 0; i < packed->mesh_count; i++)
-        if (!packed->meshes[i].closed)
-            return 0;
-    return 1;
-}
+const char *const method_names[COLUMN_ALL] = {"constant", "midpoint",   "dual",           "second_depth",  "mixed",
+                                              "auto",     "volumes",    "second_virtual", "mixed_virtual", "adaptive",
+                                              "slope",    "plane_bias", "filter"};
 
 gn_settings method_settings(const packed_scene *packed, int method, unsigned flags)
 {
-    static const uint8_t surfaces[] = {GN_CONSTANT, GN_MIDPOINT, GN_DUAL, GN_SECOND, GN_MIXED};
+    static const int presets[COLUMN_ALL] = {GN_CONSTANT, GN_MIDPOINT,    GN_DUAL,    GN_SECOND, GN_MIXED,
+                                            METHOD_AUTO, METHOD_VOLUMES, GN_SECOND,  GN_MIXED,  METHOD_ADAPTIVE,
+                                            GN_SLOPE,    GN_CONSTANT,    METHOD_AUTO};
     gn_settings s = packed->settings;
     s.mask = 1;
     s.format = GN_NO_COLOUR;
-    s.cull = GN_CULL_AUTO;
-    s.layers = GN_LAYERS_AUTO;
-    if (method == COLUMN_AUTO) {
-        s.surface = all_are_closed(packed) ? GN_SECOND : GN_MIXED;
-        s.bias = (gn_bias){GN_BIAS_TEXELS, 8 << 16};
-    } else if (method == COLUMN_VOLUMES) {
-        s.shadow = GN_SHADOW_VOLUMES;
-    } else {
-        s.surface = surfaces[method];
+    method_use(&s, packed, presets[method]);
+    if (method == COLUMN_CONSTANT || method == COLUMN_DUAL || method == COLUMN_MIXED || method == COLUMN_MIXED_VIRTUAL)
+        s.bias = packed->settings.bias;
+    if (method == COLUMN_SECOND_VIRTUAL || method == COLUMN_MIXED_VIRTUAL)
+        s.receiver = &gn_virtual;
+    if (method == COLUMN_PLANE_BIAS) {
+        s.receiver = &gn_plane_bias;
+        s.slope = 1 << 16;
+        s.bias = (gn_bias){GN_BIAS_RANGE, 2147484}; /* 0.0005, as of slope */
     }
+    if (method == COLUMN_FILTER)
+        s.reconstruction = &gn_box_5x5;
     if (method == COLUMN_MIDPOINT && flags & CULL_BACK)
         s.cull = GN_CULL_BACK;
     if (method == COLUMN_DUAL && flags & CULL_NONE)
@@ -75,7 +73,7 @@ double percent_of(const hard_row *row, uint64_t count)
     return row->truth.surface ? 100.0 * (double)count / (double)row->truth.surface : 0;
 }
 
-void measure(hard_row *row, outcome *o)
+void measure(hard_row *row, outcome *o, int method)
 {
     const truth *t = &row->truth;
     comparison c;
@@ -90,8 +88,10 @@ void measure(hard_row *row, outcome *o)
     for (size_t i = 0; i < (size_t)t->width * t->height; i++) {
         if (row->near[i] || o->mask[i] == t->mask[i] || o->mask[i] == 255 || t->mask[i] == 255)
             continue;
-        if (!footprint_differs(&row->footprint, i, t->mask[i]))
-            *(o->mask[i] ? &o->own_light : &o->own_shadow) += 1;
+        int explained = method == COLUMN_FILTER ? footprint_differs_about(&row->footprint, i, t->mask[i], FILTER_RADIUS)
+                                                : footprint_differs(&row->footprint, i, t->mask[i]);
+        if (!explained)
+            *(t->mask[i] ? &o->own_shadow : &o->own_light) += 1;
     }
 }
 
@@ -191,12 +191,12 @@ void row_measure(hard_row *row, int method, const gn_settings *settings)
         return;
     }
     o->ran = 1;
-    measure(row, o);
+    measure(row, o, method);
 }
 
 void row_end(hard_row *row)
 {
-    for (int i = 0; i < COLUMN_COUNT; i++) {
+    for (int i = 0; i < COLUMN_ALL; i++) {
         free(row->outcomes[i].mask);
         row->outcomes[i].mask = 0;
     }

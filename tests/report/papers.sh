@@ -8,6 +8,7 @@
 set -eu
 
 here=$(dirname "$0")
+# shellcheck source=SCRIPTDIR/shots.sh
 . "$here/shots.sh"
 
 if [ $# -ne 3 ] || [ "$2" != -o ]; then
@@ -40,9 +41,12 @@ sed 's/^image.*/image 1024 1024/' "$work/pipes.scene" >"$work/pipes1024.scene"
 # A table on a floor, legs 4 cm thick; the lamp stands 1 m above the table's top, 5 m off.
 box floor.obj -4 4 -.2 0 -4 4
 box table.obj -1.6 1.6 1.5 1.6 -1 1
-for z in -.87 .83; do
-    box table.obj -1.47 -1.43 0 1.5 $z "$(echo "$z + .04" | bc)"
-    box table.obj 1.43 1.47 0 1.5 $z "$(echo "$z + .04" | bc)"
+for z in "-.87 -.83" ".83 .87"; do
+    # shellcheck disable=SC2086 # two numbers
+    {
+        box table.obj -1.47 -1.43 0 1.5 $z
+        box table.obj 1.43 1.47 0 1.5 $z
+    }
 done
 cat >"$work/legs.scene" <<'END'
 image 640 480
@@ -141,7 +145,7 @@ virtual="--receiver virtual"
             shot always-$scene-$map $scene $second --receiver virtual-always --map $map
         done
     done
-    part=@120x80+180+240*3
+    part="@120x80+180+240*3"
     join papers-curved 2 rule-pipes-128.difference$part always-pipes-128.difference$part
 
     echo "== figure 10: virtual samples lit where z < stored, and where z <= stored; map 128"
@@ -157,7 +161,7 @@ virtual="--receiver virtual"
         counts pipes1024 $second $virtual --map $map
         shot first$map pipes1024 --method constant --bias 2t --map $map
     done
-    part=@260x220+420+520
+    part="@260x220+420+520"
     join papers-pipes 3 pipes512$part pipes256$part pipes128$part
 
     echo "== Weiskopf & Ertl, figure 6: double torus, map 128"
@@ -169,7 +173,7 @@ virtual="--receiver virtual"
             shot second-$how-$map torus2 --method mixed $virtual --reconstruct $how --map $map
         done
     done
-    part=@200x140+240+170
+    part="@200x140+240+170"
     join papers-torus 3 constant-nearest-128$part midpoint-nearest-128$part dual-nearest-128$part \
         constant-bilinear-128$part midpoint-bilinear-128$part dual-bilinear-128$part
 
@@ -181,7 +185,7 @@ virtual="--receiver virtual"
     shot midpoint factory --method midpoint --cull none --reconstruct jitter4x4 --map 512
     shot second factory $second $virtual --reconstruct jitter4x4 --map 512
     shot dualv factory --method dual --bias 2t $virtual --reconstruct jitter4x4 --map 512
-    part=@180x200+60+150
+    part="@180x200+60+150"
     join papers-factory 3 constant6$part midpoint$part dual6$part
 }
 

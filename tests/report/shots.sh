@@ -1,4 +1,4 @@
-# shellcheck shell=sh
+# shellcheck shell=sh disable=SC2154 # build, work and folder are the caller's
 # Frames, their figures, and pictures made of them; for scripts of this folder to read with `.`. They set:
 #
 #     build     the folder of `make BUILD=... all`, with OpenImageIO
@@ -8,7 +8,7 @@
 # build_program NAME OUT: tests/report/NAME.c with the core and the simulator, but for its main. At the top of the project.
 build_program() {
     ${MAKE:-make} --no-print-directory -s BUILD="$build" "$build/objects/host-16/tests/report/$1.o" >/dev/null
-    objects=$(ls "$build"/objects/host-16/core/*.o "$build"/objects/host-16/host/*.o | grep -v '/main\.o$')
+    objects=$(find "$build/objects/host-16/core" "$build/objects/host-16/host" -name '*.o' ! -name main.o)
     # shellcheck disable=SC2046,SC2086 # words: no folder of ours has blanks
     ${CC:-cc} -pthread "$build/objects/host-16/tests/report/$1.o" $objects $(pkg-config --libs OpenImageIO) -lstdc++ -lm \
         -o "$2"

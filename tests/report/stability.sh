@@ -58,12 +58,13 @@ Sun 5 degrees high on a solid (dual: bands where 2 texels do not suffice) and 0.
 floor); 20 degrees on a sheet (second depth), a wall along the light (auto).
 END
 
-join meshes 2x4 needle coplanar_sheets turned_block bar crossing inside_out poster
+join meshes 2x4 needle coplanar_sheets turned_block bar crossing inside_out poster valley
 cat >"$work/3.caption" <<'END'
 ![meshes](pictures/stability-meshes.png)
 
 Needle thinner than a texel (mixed), doubled sheets (mixed); turned block and bar on its edge, light behind and before the contact (second
-depth); wedge out of the floor (dual), block inside out (second depth); sheet close before a solid (auto).
+depth); wedge out of the floor (dual), block inside out (second depth); sheet close before a solid (mixed), bent sheet
+(second depth with virtual samples and no bias).
 END
 
 join numbers 2x2 spot_10000 through_near cut_by_light camera_inside
@@ -107,7 +108,13 @@ what each method gives. The scenes and the derivations are `tests/hard`, and run
 
 Columns are methods: false shadow + false light against the exact truth, % of the pixels that see a surface, ties of the truth and pixels
 near one left out (but counted for faces in one plane, which are about them); 16 bits of depth, image 160 x 120, map 64 x 64 (t = 1/16 m,
-three pixels) unless the case says otherwise; the sphere and the 360 directions have images of 80 x 60. Bias 2 texels, `auto`'s 8.
+three pixels) unless the case says otherwise; the sphere and the 360 directions have images of 80 x 60. Bias of
+constant, dual and mixed 2 texels; `auto` is second depth where all is closed, else mixed, with virtual samples.
+
+A second table has the cases that virtual samples change, and their rivals: adaptive (nearest depth, 0.0001 of the range, virtual samples),
+slope (2 x half a texel's slope and 0.0005 of the range), plane bias (half a texel of the receiver and the same), and `auto` filtered over
+5 x 5 texels: there a pixel is right where it is wholly lit or wholly shadowed as in the truth, and its error its own where the truth is one
+at all 25 centres.
 
 **Bold: errors of the method's own.** A map answers for the centres of its texels. Where the truth at the texel's centre, moved along the
 light onto the receiver's plane, differs from the truth at the pixel, the error is the texel's: only a larger map helps. All others are the

@@ -8,6 +8,7 @@
 set -eu
 
 here=$(dirname "$0")
+# shellcheck source=SCRIPTDIR/shots.sh
 . "$here/shots.sh"
 
 if [ $# -ne 3 ] || [ "$2" != -o ]; then
@@ -57,7 +58,7 @@ echo "== points compared, map 128"
     for how in bilinear jitter4x4 pcf3 pcf5 pcf7; do
         shot $how room --method mixed $virtual --reconstruct $how --map 128
     done
-    part=@100x75+285+395*4
+    part="@100x75+285+395*4"
     join shadow-test-fractions 2 mixed$part bilinear$part jitter4x4$part pcf5$part
 
     shot nearest room --method mixed $virtual --map 256
