@@ -6,7 +6,7 @@
  * exactly on the stored depth does not shadow itself. Wang & Molnar's figure 10 has < for virtual samples; then every
  * open plane would.
  *
- * Memory: 13 bytes a point of the block on the stack; 40 bytes an entry of the cache of planes; a byte a pixel of a
+ * Memory: 17 bytes a point of the block on the stack; 40 bytes an entry of the cache of planes; a byte a pixel of a
  * region's row where there are fractions. */
 #ifndef GN_CASCADE_H
 #define GN_CASCADE_H
@@ -16,6 +16,9 @@
 /* Points of a block, at most 256. Trades stack against the cost of starting a block; never changes a pixel. */
 #ifndef GN_BLOCK
 #define GN_BLOCK 96
+#endif
+#if GN_BLOCK < 1 || GN_BLOCK > 256
+#error "GN_BLOCK must be 1 to 256"
 #endif
 
 #define GN_NOWHERE 0x80000000u /* u of a point that the map does not hold: z 0 lit, else, the farthest, shadowed */
@@ -42,8 +45,9 @@ GN_INLINE uint32_t gn_texel(uint32_t place, uint32_t last, uint32_t bits)
     return gn_hold(place + ((uint32_t)1 << (bits - 1)), bits, last);
 }
 
-/* The error of a point's depth, of 2^32 (docs/number-formats.md): by so much nearer it votes where virtual samples may
- * follow, so that a level plane, where all depths are one, is not shadowed by its own rounding. */
+/* The usual error of a point's depth, of 2^32; more for far eyes and planes seen edge-on (docs/number-formats.md). By
+ * so much nearer it votes where virtual samples may follow, so that a level plane, where all depths are one, is not
+ * shadowed by its own rounding. */
 #define GN_POINT_ERROR 0x10000u
 
 /* The one share of a single texel: what a shadowed pixel's q becomes. */

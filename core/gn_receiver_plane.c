@@ -91,6 +91,7 @@ static GN_NOINLINE void make_plane(const gn_context *context, gn_receiver_plane 
             sheer = gn_make_steep_plane(&out->plane, &v[0], second, third, area);
         else
             widen(&out->plane, &plane, &v[0]);
+        /* one that is too steep even for 64 bits knows nothing of its depth: no virtual sample shadows it */
         out->slack = sheer ? (int64_t)1 << 32 : slack_of(&out->plane, &v[0], &v[1], &v[2], area);
     } else {
         gn_polygon polygon;

@@ -83,17 +83,10 @@ static void vote_around(const gn_lookup *lookup, gn_points *points)
     }
 }
 
-#if !GN_VECTOR
 /* A depth with its fraction bits, in units of 1/65536, as the light pass cuts it. */
 GN_INLINE uint32_t cut_raw(uint32_t z, uint32_t bits)
 {
     return GN_DEPTH_BITS == 16 ? z >> bits : z << (16 - bits);
-}
-
-/* Negative where a depth that was cut is behind a stored one. */
-GN_INLINE uint32_t compare(uint32_t z, gn_depth stored)
-{
-    return GN_DEPTH_BITS == 16 ? stored - z : z <= stored ? 0 : GN_DARK;
 }
 
 /* The place of a pixel whose W was w. */
@@ -108,6 +101,47 @@ static GN_NOINLINE void open_point(const gn_context *context, gn_points *points,
     points->u[i] = place[0] - ((uint32_t)1 << (bits - 1));
     points->v[i] = place[1] - ((uint32_t)1 << (bits - 1));
     points->z[i] = (place[2] << (16u - s->depth_bits)) - GN_POINT_ERROR;
+}
+
+#if GN_VECTOR
+#define OUTSIDE 0xffffffffu /* for a footprint's index */
+
+/* In vectors: the index of the first of the four texels about each pixel in points->z, its depth in points->v; then the
+ * votes. The index of a place where no point should be is found again. */
+static void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint32_t *q, uint32_t depth_bits)
+{
+    const gn_lookup l = *lookup;
+    gn_runner u = points->row[0], v = points->row[1], z = points->row[2];
+    int32_t count = points->count;
+    z.a -= GN_POINT_ERROR >> (16 - depth_bits);
+    for (int32_t i = 0; i < count; i++) {
+        uint32_t w = q[i], step = (uint32_t)i, column = (u.a + gn_w_product(w, u.b + step * u.b_dx)) >> l.bits;
+        uint32_t row = (v.a + gn_w_product(w, v.b + step * v.b_dx)) >> l.bits;
+        points->z[i] = column < l.last_column && row < l.last_row ? row * l.stride + column : OUTSIDE;
+        points->v[i] = cut_raw(z.a + gn_w_product(w, z.b + step * z.b_dx), depth_bits);
+    }
+    for (int32_t i = 0; i < count; i++) {
+        const gn_depth *texel = l.map + points->z[i];
+        uint32_t vote;
+        if (GN_UNLIKELY(points->z[i] == OUTSIDE)) {
+            uint32_t column = (u.a + gn_w_product(q[i], u.b + (uint32_t)i * u.b_dx)) >> l.bits;
+            uint32_t row = (v.a + gn_w_product(q[i], v.b + (uint32_t)i * v.b_dx)) >> l.bits;
+            vote = look_beyond(&l, column, row, points->v[i]);
+        } else {
+            vote = agree(texel, texel + l.stride, points->v[i]);
+        }
+        if (vote == OPEN)
+            points->open[points->open_count++] = (uint8_t)i;
+        else
+            q[i] = vote;
+    }
+    gn_end_block(points);
+}
+#else
+/* Negative where a depth that was cut is behind a stored one. */
+GN_INLINE uint32_t compare(uint32_t z, gn_depth stored)
+{
+    return GN_DEPTH_BITS == 16 ? stored - z : z <= stored ? 0 : GN_DARK;
 }
 
 /* The number of the first of the four texels about each pixel, in points->z; rows are not padded. */
@@ -128,7 +162,7 @@ static GN_NOINLINE void find_footprints(const gn_lookup *lookup, gn_points *poin
 }
 
 /* Votes by the footprints in points->z. */
-static GN_NOINLINE void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint32_t *q, uint32_t depth_bits)
+static GN_NOINLINE void vote_by_numbers(const gn_lookup *lookup, gn_points *points, uint32_t *q, uint32_t depth_bits)
 {
     const uint32_t below = lookup->stride, across = below + 1, dx = points->row[2].b_dx;
     const uint32_t a = points->row[2].a - (GN_POINT_ERROR >> (16 - depth_bits));
@@ -150,17 +184,20 @@ static GN_NOINLINE void vote_by_footprints(const gn_lookup *lookup, gn_points *p
     } while (q != end);
 }
 
+static void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint32_t *q, uint32_t depth_bits)
+{
+    find_footprints(lookup, points, q);
+    vote_by_numbers(lookup, points, q, depth_bits);
+}
+#endif
+
 /* A perspective camera, and a directional light whose box holds every point well inside: the common case. */
 static void vote_sunlit(const gn_context *context, const gn_lookup *lookup, gn_points *points, uint32_t *q)
 {
-    find_footprints(lookup, points, q);
     vote_by_footprints(lookup, points, q, context->shading.depth_bits);
     for (int32_t n = 0; n < points->open_count; n++)
         open_point(context, points, points->open[n], q[points->open[n]], lookup->bits);
 }
-#else
-#define vote_sunlit 0
-#endif
 
 /* As gn_shade.c does it, with four texels for one. */
 static void vote_spotlit(const gn_context *context, const gn_lookup *lookup, gn_points *points, uint32_t *q)

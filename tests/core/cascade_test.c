@@ -707,6 +707,150 @@ static void open_votes_ask_the_plane(void)
     }
 }
 
+/* ---- other ways to the same masks ------------------------------------------------------------------------------ */
+
+/* Both passes; what each pixel of the one region sees. */
+static gn_status render_view(frame *f, const view *v, uint32_t *q, uint32_t *triangle)
+{
+    gn_pixels region;
+    gn_window window = {0, 0, v->settings.width, v->settings.height};
+    gn_status status = frame_start(f, &v->scene, &v->settings);
+    if (status == GN_OK)
+        status = gn_light_pass(f->context, &v->light);
+    if (status == GN_OK)
+        status = gn_camera_begin(f->context, &v->camera);
+    if (status != GN_OK)
+        return status;
+    gn_rasterise_region(f->context, &f->context->workers[0], &window);
+    memcpy(q, f->context->workers[0].q, mask_bytes(f) * 4);
+    memcpy(triangle, f->context->workers[0].triangle, mask_bytes(f) * 4);
+    return gn_camera_region(f->context, 0, 0, 0, f->mask, &region);
+}
+
+/* The cascade finds points by itself: with a bias of nothing it gives what the test of a row in one go gives. */
+static void a_bias_of_nothing_is_no_receiver(uint64_t cases)
+{
+    static uint32_t q[MOST_PIXELS], triangle[MOST_PIXELS];
+    static view v;
+    uint64_t views = 0, lit = 0, shadowed = 0, beside = 0;
+    unsigned failures = 0;
+    for (uint64_t n = 0; n < cases && failures < 5; n++) {
+        frame plain, biased;
+        memset(&v, 0, sizeof v);
+        memset(&plain, 0, sizeof plain);
+        memset(&biased, 0, sizeof biased);
+        make_scene(&v);
+        make_settings(&v, GN_NO_COLOUR);
+        v.settings.receiver = 0;
+        v.settings.reconstruction = 0;
+        gn_status status = make_views(&v);
+        if (status == GN_OK)
+            status = render_view(&plain, &v, q, triangle);
+        v.settings.receiver = &gn_plane_bias;
+        v.settings.slope = 0;
+        v.settings.surface = v.settings.surface == GN_SLOPE ? GN_CONSTANT : v.settings.surface;
+        if (status == GN_OK && plain.settings.surface != GN_SLOPE)
+            status = render_view(&biased, &v, q, triangle);
+        for (size_t i = 0; biased.mask && status == GN_OK && i < mask_bytes(&biased); i++) {
+            point p =
+                find_point(biased.context, (int32_t)(i % v.settings.width), (int32_t)(i / v.settings.width), q[i]);
+            if (p.where == ON_MAP && triangle[i] != GN_NO_TRIANGLE &&
+                (p.u < 0 || p.v < 0 || p.u >> p.bits >= v.settings.map_width ||
+                 p.v >> p.bits >= v.settings.map_height)) {
+                beside++; /* on its ray but not on its triangle (gn_shade.h) */
+                continue;
+            }
+            lit += biased.mask[i] == 254;
+            shadowed += biased.mask[i] == 0;
+            if (plain.mask[i] != biased.mask[i] && failures++ < 5) {
+                note_view(&v, n);
+                note("    pixel %lu: without a receiver %u, with a bias of nothing %u", (unsigned long)i,
+                     (unsigned)plain.mask[i], (unsigned)biased.mask[i]);
+            }
+        }
+        views += biased.mask && status == GN_OK;
+        if ((plain.block && !frame_end(&plain)) || (biased.block && !frame_end(&biased)))
+            failures++;
+        free_view(&v);
+    }
+    ok(!failures && views > cases / 2 && lit > cases && shadowed > cases,
+       "a bias of nothing is no receiver: %llu pixels lit, %llu shadowed in %llu views", (unsigned long long)lit,
+       (unsigned long long)shadowed, (unsigned long long)views);
+    note("%llu pixels' points lay beside a map that holds all vertices", (unsigned long long)beside);
+}
+
+/* Turn the order of objects and of each one's triangles around. */
+static void reverse_order(view *v)
+{
+    for (uint32_t o = 0; o < v->scene.object_count; o++) {
+        shape *s = &v->shapes[o];
+        for (uint32_t i = 0, j = s->mesh.triangle_count; i + 1 < j--; i++)
+            for (int k = 0; k < 3; k++) {
+                uint32_t index = s->indices[3 * i + (uint32_t)k];
+                s->indices[3 * i + (uint32_t)k] = s->indices[3 * j + (uint32_t)k];
+                s->indices[3 * j + (uint32_t)k] = index;
+            }
+    }
+    for (uint32_t i = 0, j = v->scene.object_count; i + 1 < j--; i++) {
+        gn_object object = v->objects[i];
+        v->objects[i] = v->objects[j];
+        v->objects[j] = object;
+    }
+}
+
+/* The identifier that a triangle gets when all orders are turned around. */
+static uint32_t reversed(const gn_context *context, uint32_t triangle)
+{
+    uint32_t object = triangle >> context->triangle_bits, i = triangle & ((1u << context->triangle_bits) - 1);
+    return (context->scene->object_count - 1 - object) << context->triangle_bits |
+           (context->scene->objects[object].mesh->triangle_count - 1 - i);
+}
+
+static void masks_do_not_depend_on_the_order_of_triangles(uint64_t cases)
+{
+    static uint32_t q[2][MOST_PIXELS], triangle[2][MOST_PIXELS];
+    static view v;
+    uint64_t same = 0, tied = 0, partly = 0, many = 0;
+    unsigned failures = 0;
+    for (uint64_t n = 0; n < cases && failures < 5; n++) {
+        frame f[2];
+        memset(&v, 0, sizeof v);
+        memset(f, 0, sizeof f);
+        make_scene(&v);
+        make_settings(&v, GN_NO_COLOUR);
+        gn_status status = make_views(&v);
+        for (int turned = 0; status == GN_OK && turned < 2; turned++) {
+            if (turned)
+                reverse_order(&v);
+            status = render_view(&f[turned], &v, q[turned], triangle[turned]);
+        }
+        for (size_t i = 0; status == GN_OK && i < mask_bytes(&f[0]); i++) {
+            uint32_t before = triangle[0][i], after = triangle[1][i];
+            /* of two at one depth the lower number is seen: the only thing that order may decide */
+            if (before == GN_NO_TRIANGLE ? after != before : after != reversed(f[1].context, before)) {
+                tied++;
+                failures += q[0][i] != q[1][i];
+                continue;
+            }
+            same++;
+            partly += f[0].mask[i] > 0 && f[0].mask[i] < 254;
+            if (f[0].mask[i] != f[1].mask[i] && failures++ < 5) {
+                note_view(&v, n);
+                note("    pixel %lu: %u, with the order turned around %u", (unsigned long)i, (unsigned)f[0].mask[i],
+                     (unsigned)f[1].mask[i]);
+            }
+        }
+        many += status == GN_OK && (v.scene.object_count > 1 || v.shapes[0].mesh.triangle_count > 1);
+        for (int i = 0; i < 2; i++)
+            if (f[i].block && !frame_end(&f[i]))
+                failures++;
+        free_view(&v);
+    }
+    ok(!failures && many > cases / 2 && partly > cases / 2 && same > 10 * tied,
+       "masks do not depend on the order of triangles and objects: %llu pixels, %llu of them partly lit, %llu ties",
+       (unsigned long long)same, (unsigned long long)partly, (unsigned long long)tied);
+}
+
 int main(int argc, char **argv)
 {
 #if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
@@ -718,5 +862,7 @@ int main(int argc, char **argv)
     ties_are_lit_at_each_stage();
     open_votes_ask_the_plane();
     masks_are_the_definition(cases);
+    a_bias_of_nothing_is_no_receiver(cases / 4);
+    masks_do_not_depend_on_the_order_of_triangles(cases / 8);
     return tap_done();
 }

@@ -53,7 +53,8 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
 #undef count_span
 #undef gn_rasterise_region
 
-/* The cascade, with votes of its own where there are no vectors. */
+/* The cascade, with votes of its own where there are no vectors; and in blocks of its own, which change no pixel. */
+#define GN_BLOCK 7
 #include "gn_cascade.h"
 #define make_lookup make_cascade_lookup
 #define test_box test_box_of_points

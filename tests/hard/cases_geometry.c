@@ -571,7 +571,8 @@ static const hard_case cases[] = {
      .group = GROUP,
      .flags = WITH_RECEIVERS,
      .title = "valley of eight strips, an open sheet",
-     .expected = "second depth: what is deeper than a texel's centre, a column of pixels in three; the others none",
+     .expected = "second depth: what is deeper than a texel's centre, a column of pixels in three (32 bits: up to "
+                 "half); the others none",
      .receivers =
          "without a bias (second depth; of adaptive 0.8 mm) a column at each crease, 4.4 %: the texel's; with 2 "
          "texels (mixed, auto) none",
@@ -580,7 +581,8 @@ static const hard_case cases[] = {
      .by_hand = valley_by_hand,
      .check = check_valley,
      .picture = COLUMN_SECOND_VIRTUAL + 1,
-     .methods = {[COLUMN_SECOND] = SHADOW(30, 34.5)}},
+     /* One column of a texel's three is behind its centre, one on it: a tie, which in 32 bits goes either way. */
+     .methods = {[COLUMN_SECOND] = SHADOW(30, 50)}},
 };
 
 const hard_list geometry_cases = {cases, COUNT(cases)};
