@@ -20,7 +20,8 @@ say = $(if $(filter 0,$(V)),@echo "  $(1)  $@")
 # ---- what is compiled, and how -------------------------------------------------------------------------------------
 
 CORE := $(wildcard core/*.c)
-# Partial redundancy elimination (-fno-tree-pre) costs small triangles 3 % and flash.
+# Embedded targets. Partial redundancy elimination costs small triangles 3 %, and flash.
+FAST := -O2 -fno-tree-pre
 # No inner loops: compiled for size where flash counts; what these switches do for speed costs flash and gains nothing there.
 SMALL := -Os -fno-schedule-insns2 -fno-move-loop-invariants -fno-code-hoisting
 SETUP_SOURCES := $(patsubst %,core/gn_%.c,bias bins camera_pass clip fraction lambert matrix plan region scaled shading silhouette \
@@ -58,7 +59,7 @@ endif
 # ---- objects -------------------------------------------------------------------------------------------------------
 
 # Everything is compiled anew when a flag changes, for instance because OpenImageIO was installed.
-ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(SETUP_SOURCES) $(SMALL) no-tree-pre
+ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(SETUP_SOURCES) $(SMALL) $(FAST)
 $(BUILD)/flags: always
 	@mkdir -p $(@D)
 	@echo '$(ALL_FLAGS)' | cmp -s - $@ || echo '$(ALL_FLAGS)' >$@
@@ -152,7 +153,7 @@ $(BUILD)/golden/footprint.h: $(BUILD)/gnomon port/footprint/scene.awk
 
 # -fcallgraph-info: what a function needs of the stack, and what it calls.
 $(foreach t,$(EMBEDDED_TARGETS),$(foreach d,$(DEPTHS),\
-	$(eval $(call compile,$(t)-$(d),$($(t)_TOOL)gcc,-O2 -fno-tree-pre -ffreestanding $($(t)_FLAGS) -DGN_DEPTH_BITS=$(d) \
+	$(eval $(call compile,$(t)-$(d),$($(t)_TOOL)gcc,$(FAST) -ffreestanding $($(t)_FLAGS) -DGN_DEPTH_BITS=$(d) \
 		-ffunction-sections -fdata-sections -fcallgraph-info=su,$(SMALL)))))
 $(foreach t,$(HOSTED_TARGETS),$(foreach d,$(DEPTHS),\
 	$(eval $(call compile,$(t)-$(d),$($(t)_CC),$($(t)_FLAGS) -DGN_DEPTH_BITS=$(d)))))
