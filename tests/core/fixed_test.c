@@ -94,6 +94,7 @@ PRIMITIVES(this_machine)
 #undef GN_FIXED_H
 #undef GN_INLINE
 #undef GN_NOINLINE
+#undef GN_COLD
 #undef GN_LIKELY
 #undef GN_UNLIKELY
 #undef GN_WIDE_DIVIDE
