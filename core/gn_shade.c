@@ -87,7 +87,6 @@ static void shade_directional(const gn_context *context, uint32_t *q, int32_t x,
 static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int32_t y, int32_t count)
 {
     enum { BLOCK = 128 };
-    static const uint32_t OUTSIDE = 0xffffffffu;
     uint32_t texel[BLOCK], depth[BLOCK];
     const gn_linear *c = context->shading.coordinate;
     lookup l = make_lookup(context);
@@ -99,11 +98,11 @@ static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int
             uint32_t w = q[i], step = (uint32_t)i;
             uint32_t column = (u.a + gn_w_product(w, u.b + step * u.b_dx)) >> l.position_bits;
             uint32_t row = (v.a + gn_w_product(w, v.b + step * v.b_dx)) >> l.position_bits;
-            texel[i] = column < l.width && row < l.height ? row * l.stride + column : OUTSIDE;
+            texel[i] = column < l.width && row < l.height ? row * l.stride + column : GN_NO_INDEX;
             depth[i] = z.a + gn_w_product(w, z.b + step * z.b_dx);
         }
         for (int32_t i = 0; i < n; i++) {
-            if (GN_UNLIKELY(texel[i] == OUTSIDE)) {
+            if (GN_UNLIKELY(texel[i] == GN_NO_INDEX)) {
                 uint32_t place_u = u.a + gn_w_product(q[i], u.b + (uint32_t)i * u.b_dx);
                 texel[i] = find_texel(&l, place_u, v.a + gn_w_product(q[i], v.b + (uint32_t)i * v.b_dx));
             }

@@ -47,6 +47,8 @@ GN_INLINE uint32_t gn_hold(uint32_t place, uint32_t bits, uint32_t last)
     return GN_UNLIKELY(texel > last) ? (place >> 31 ? 0 : last) : texel;
 }
 
+#define GN_NO_INDEX 0xffffffffu /* in loops that find indices: not yet */
+
 /* The index in the map of texel number row width + column, modulo 2^32 and at most last. Where a light's box holds
  * every vertex it still may not hold every point: those of triangles that the camera sees all but edge-on lie anywhere
  * along their rays, and a pixel without a surface has any place. They take some texel, the same on every machine; where

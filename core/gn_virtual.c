@@ -104,8 +104,6 @@ static GN_NOINLINE void open_point(const gn_context *context, gn_points *points,
 }
 
 #if GN_VECTOR
-#define OUTSIDE 0xffffffffu /* for a footprint's index */
-
 /* In vectors: the index of the first of the four texels about each pixel in points->z, its depth in points->v; then the
  * votes. The index of a place where no point should be is found again. */
 static void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint32_t *q, uint32_t depth_bits)
@@ -117,13 +115,13 @@ static void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint3
     for (int32_t i = 0; i < count; i++) {
         uint32_t w = q[i], step = (uint32_t)i, column = (u.a + gn_w_product(w, u.b + step * u.b_dx)) >> l.bits;
         uint32_t row = (v.a + gn_w_product(w, v.b + step * v.b_dx)) >> l.bits;
-        points->z[i] = column < l.last_column && row < l.last_row ? row * l.stride + column : OUTSIDE;
+        points->z[i] = column < l.last_column && row < l.last_row ? row * l.stride + column : GN_NO_INDEX;
         points->v[i] = cut_raw(z.a + gn_w_product(w, z.b + step * z.b_dx), depth_bits);
     }
     for (int32_t i = 0; i < count; i++) {
         const gn_depth *texel = l.map + points->z[i];
         uint32_t vote;
-        if (GN_UNLIKELY(points->z[i] == OUTSIDE)) {
+        if (GN_UNLIKELY(points->z[i] == GN_NO_INDEX)) {
             uint32_t column = (u.a + gn_w_product(q[i], u.b + (uint32_t)i * u.b_dx)) >> l.bits;
             uint32_t row = (v.a + gn_w_product(q[i], v.b + (uint32_t)i * v.b_dx)) >> l.bits;
             vote = look_beyond(&l, column, row, points->v[i]);
