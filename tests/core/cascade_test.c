@@ -341,7 +341,7 @@ typedef struct tally {
     unsigned failures;
     uint64_t views[RECEIVERS][FILTERS];
     uint64_t pixels, lit, shadowed, partly, outside, resampled, unseen, away;
-    uint64_t spots, trusted, boxes, orthographic, coarse, at_border, wide;
+    uint64_t spots, trusted, boxes, orthographic, coarse, at_border, wide, odd;
 } tally;
 
 static void note_view(const view *v, uint64_t n)
@@ -360,7 +360,7 @@ static unsigned mask_of(int lit, int whole)
 }
 
 static void compare_pixels(const view *v, frame *f, const uint32_t *q, const uint32_t *triangle, uint64_t n,
-                           gn_statistics *expected, tally *count)
+                           gn_statistics *expected, int *odd, tally *count)
 {
     gn_context *context = f->context;
     for (int32_t i = 0; i < v->settings.width * v->settings.height; i++) {
@@ -382,6 +382,10 @@ static void compare_pixels(const view *v, frame *f, const uint32_t *q, const uin
             continue;
         }
         point p = find_point(context, x, y, q[i]);
+        if (p.beside) { /* what it is compared with says nothing: that it is the same everywhere, vector_test shows */
+            *odd = 1;
+            continue;
+        }
         verdict e = judge(context, v->how, v->who, &p, triangle[i], x, y);
         unsigned mask = mask_of(e.lit, e.whole);
         int partly = e.lit > 0 && e.lit < e.whole;
@@ -449,6 +453,7 @@ static void compare_view(uint64_t n, tally *count)
     static view v;
     frame f;
     gn_statistics expected;
+    int odd = 0;
     memset(&v, 0, sizeof v);
     memset(&f, 0, sizeof f);
     memset(&expected, 0, sizeof expected);
@@ -472,8 +477,10 @@ static void compare_view(uint64_t n, tally *count)
         if (v.who != POINT)
             disturb(context, triangle, pixels);
         status = gn_camera_region(context, 0, 0, 0, f.mask, &region);
-        compare_pixels(&v, &f, q, triangle, n, &expected, count);
-        compare_statistics(&v, &f, n, &expected, count);
+        compare_pixels(&v, &f, q, triangle, n, &expected, &odd, count);
+        if (!odd)
+            compare_statistics(&v, &f, n, &expected, count);
+        count->odd += (uint64_t)odd;
         count->views[v.who][v.how]++;
         count->spots += v.light.kind == GN_SPOT;
         count->trusted += v.light.kind == GN_DIRECTIONAL && context->shading.trusted;
@@ -511,7 +518,8 @@ static void masks_are_the_definition(uint64_t cases)
        (unsigned long long)count.resampled, (unsigned long long)count.outside, (unsigned long long)count.at_border,
        (unsigned long long)ties, (unsigned long long)misses);
     ok(count.spots > cases / 5 && count.trusted > cases / 20 && count.boxes > cases / 20 &&
-           count.orthographic > cases / 5 && count.coarse > cases / 400 && count.wide > cases / 20,
+           count.orthographic > cases / 5 && count.coarse > cases / 400 && count.wide > cases / 20 &&
+           count.odd < cases / 1000,
        "%llu spot lights, %llu boxes around all, %llu that leave points out, %llu orthographic cameras, %llu with few "
        "bits of place, %llu wider than a block",
        (unsigned long long)count.spots, (unsigned long long)count.trusted, (unsigned long long)count.boxes,

@@ -13,6 +13,7 @@ typedef struct point {
     int64_t u, v; /* texels with bits fraction bits */
     int bits;
     uint32_t z; /* 32 bits */
+    int beside; /* 1: on its ray but not on its triangle, and beyond the depths of a box that holds all vertices */
 } point;
 
 /* a + floor(w b / 2^32), a and b being affine in the pixel, modulo 2^32. */
@@ -28,7 +29,7 @@ static uint32_t expression_at(const gn_linear *l, int32_t x, int32_t y, uint32_t
 static point find_spot_point(const gn_context *context, const uint32_t value[3])
 {
     const gn_shading *s = &context->shading;
-    point p = {BESIDE_SHADOWED, 0, 0, 18, 0};
+    point p = {BESIDE_SHADOWED, 0, 0, 18, 0, 0};
     uint32_t left = value[0], top = value[1];
     if (value[2] < s->near_w || value[2] > s->far_w || left >= value[2] || top >= value[2])
         return p;
@@ -46,13 +47,14 @@ static point find_sun_point(const gn_context *context, const uint32_t value[3])
 {
     const gn_shading *s = &context->shading;
     const gn_settings *settings = &context->settings;
-    point p = {ON_MAP, 0, 0, s->position_bits < 8 ? 8 : s->position_bits, 0};
+    point p = {ON_MAP, 0, 0, s->position_bits < 8 ? 8 : s->position_bits, 0, 0};
     uint64_t range = UINT64_C(65536) << s->depth_bits, z = value[2];
     for (int i = 0; i < 2; i++) {
         /* negative: where no box is tested, rounding may bring it before the map */
         int64_t place = value[i] >> 31 ? (int64_t)value[i] - 4294967296 : value[i];
         *(i ? &p.v : &p.u) = place * ((int64_t)1 << (p.bits - s->position_bits));
     }
+    p.beside = s->trusted && z >= range;
     if (!s->trusted) {
         if (p.u < 0 || p.v < 0 || value[2] >> 31 || p.u >= (int64_t)settings->map_width << p.bits ||
             p.v >= (int64_t)settings->map_height << p.bits)

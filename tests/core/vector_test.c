@@ -1,6 +1,6 @@
 /* The inner loops with vectors and without write the same layers, the same Q and triangles, the same answers of the
  * shadow test, with one texel and with virtual samples. The library holds one of the two; the other is compiled here
- * from the same sources, under other names, and works on the library's own contexts. Cases: 3000 scenes, or
+ * from the same sources, under other names, and works on the library's own contexts. Cases: 6000 scenes, or
  * GNOMON_CASES. */
 #include "gn_vector.h"
 
@@ -81,6 +81,7 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
 #undef gn_cascade_row
 #undef gn_virtual
 #undef gn_virtual_always
+#undef OUTSIDE
 
 /* The shadow test. */
 #define gn_shade_row twin_shade_row
@@ -369,7 +370,7 @@ static void compare_scene(tally *count, uint64_t n)
 
 int main(int argc, char **argv)
 {
-    uint64_t cases = tap_cases(argc, argv, 3000);
+    uint64_t cases = tap_cases(argc, argv, 6000);
     tally count;
     memset(&count, 0, sizeof count);
     for (uint64_t n = 0; n < cases && count.failures < 5; n++)
