@@ -1,4 +1,4 @@
-/* gnomon: hard shadows in integer arithmetic, for machines without a GPU and often without an FPU.
+/* gnomon: hard and filtered shadows in integer arithmetic, for machines without a GPU and often without an FPU.
  *
  * Synopsis (the whole of it: a scene in, shadowed pixels out):
  *

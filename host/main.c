@@ -9,19 +9,17 @@ static const struct {
     const char *name, *summary;
     int (*run)(int argc, char **argv);
 } commands[] = {
-    {"render", render_summary, command_render},
-    {"truth", truth_summary, command_truth},
-    {"compare", compare_summary, command_compare},
-    {"pack", pack_summary, command_pack},
-    {"bench", bench_summary, command_bench},
-    {"procedural", procedural_summary, command_procedural},
+    {"render", render_summary, command_render},    {"truth", truth_summary, command_truth},
+    {"compare", compare_summary, command_compare}, {"pack", pack_summary, command_pack},
+    {"bench", bench_summary, command_bench},       {"procedural", procedural_summary, command_procedural},
 };
 
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 static void help(FILE *stream)
 {
-    fputs("gnomon " GN_VERSION ": hard shadows in integer arithmetic, the simulator\n\nusage: gnomon COMMAND ...\n\n",
+    fputs("gnomon " GN_VERSION
+          ": hard and filtered shadows in integer arithmetic, the simulator\n\nusage: gnomon COMMAND ...\n\n",
           stream);
     for (int i = 0; i < COMMANDS; i++)
         fprintf(stream, "  %-12s %s\n", commands[i].name, commands[i].summary);

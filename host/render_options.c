@@ -164,7 +164,7 @@ static int refuse_small_map(const gn_settings *s, problem *why)
 {
     return problem_of_usage(
         why,
-        "--receiver %s with --reconstruct %s, but the map is %d x %d; expected 2 x 2 texels or more, or point "
+        "the receiver %s with the reconstruction %s, but the map is %d x %d; expected 2 x 2 texels or more, or point "
         "and nearest",
         choices_receiver.all[choices_number(&choices_receiver, s->receiver)].word,
         choices_reconstruction.all[choices_number(&choices_reconstruction, s->reconstruction)].word, s->map_width,

@@ -46,14 +46,17 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
     {"--virtual-surface", "NAME", \
      "what a pixel is compared with (z1, z2: nearest and second depth, b: bias):\n" \
      "constant z1 + b; midpoint (z1 + z2) / 2; dual z1 + min((z2 - z1) / 2, b);\n" \
-     "second z2 + b; mixed: second where the nearest mesh is closed, else dual;\n" \
+     "second z2 + b, or z1 + b with front faces culled; mixed: second where the\n" \
+     "nearest mesh is closed, else dual;\n" \
      "slope z1 + F (m - z1) + b, m: the least z + half a texel of its own slope"}, \
     {"--bias", "B", \
      "in world units (0.1), in texels (2t) or in units of the light's depth\n" \
-     "range (0.02r); not for midpoint. Default: 2t; slope 0.0005r; second 0"}, \
+     "range (0.02r); not for midpoint. Default: 2t; slope 0.0005r;\n" \
+     "adaptive 0.0001r; second 0"}, \
     {"--slope", "F", \
      "the factor F of the virtual surface slope (default 2) and of the receiver\n" \
-     "plane-bias (default 1; with both, one for both): 0 to 64"}, \
+     "plane-bias (default 1; with both, one for both): 0 to 64, in\n" \
+     "steps of 1/65536"}, \
     {"--receiver", "NAME", \
      "what is compared: point: the pixel's own depth; plane-bias: the same less\n" \
      "F times half a texel of its triangle's slope; virtual: where texels about\n" \

@@ -834,7 +834,7 @@ static int measure(self_shadow counts[MEASURED], const kind *what, int spot, int
     return good;
 }
 
-static void lone_shapes_do_not_shadow_themselves(uint64_t lights)
+static void lone_shapes_shadow_themselves_no_more_than_is_explained(uint64_t lights)
 {
     static self_shadow counts[2][MEASURED];
     uint64_t failures = 0;
@@ -853,15 +853,18 @@ static void lone_shapes_do_not_shadow_themselves(uint64_t lights)
            "%s light: no lone plane shadows itself: %llu of %llu pixels", light,
            (unsigned long long)c[PLANE_ALWAYS].shadowed, (unsigned long long)c[PLANE_ALWAYS].turned);
         /* but for a steeper face that hides one (has_a_reason): measured, a pixel in a million */
-        ok(c[SECOND_ALWAYS].unexplained == 0 && c[SECOND_ALWAYS].shadowed <= 1 + c[SECOND_ALWAYS].turned / 100000 &&
+        ok(c[SECOND_ALWAYS].unexplained == 0 && c[SECOND_ALWAYS].shadowed <= 1 + c[SECOND_ALWAYS].turned / 1000000 &&
                c[SECOND_ALWAYS].turned > 50 * lights && c[SECOND_ALWAYS].away > 50 * lights,
-           "%s light: no lone convex solid shadows itself with second depth: %llu of %llu pixels", light,
-           (unsigned long long)c[SECOND_ALWAYS].shadowed, (unsigned long long)c[SECOND_ALWAYS].turned);
-        /* the vote is by a point that errs: measured, up to 0.1 in a thousand */
+           "%s light: a lone convex solid with second depth is shadowed by a steeper face's snapping at most: %llu of "
+           "%llu pixels",
+           light, (unsigned long long)c[SECOND_ALWAYS].shadowed, (unsigned long long)c[SECOND_ALWAYS].turned);
+        /* the vote is by a point that errs: measured, up to 0.1 in a thousand, held to 0.25 */
         ok(!c[PLANE_VOTED].unexplained && !c[SECOND_VOTED].unexplained && !c[FIRST_ALWAYS].unexplained &&
                !c[FIRST_VOTED].unexplained && c[PLANE_VOTED].shadowed <= 1 + c[PLANE_VOTED].turned / 4000 &&
                c[SECOND_VOTED].shadowed <= 1 + c[SECOND_VOTED].turned / 100000,
-           "%s light: what shadows itself by the vote or with first depth has a reason", light);
+           "%s light: what shadows itself by the vote or with first depth has a reason, and by the vote is below 250 "
+           "in a million",
+           light);
         /* else all of this would show nothing */
         ok(c[PLANE_POINT].shadowed * 10 > c[PLANE_POINT].turned * 3 && c[PLANE_POINT].turned > lights,
            "%s light: without virtual samples %llu of %llu pixels do", light,
@@ -876,7 +879,7 @@ static void lone_shapes_do_not_shadow_themselves(uint64_t lights)
 
 /* Wang & Molnar's figure 10 compares virtual samples with <. The samples of a lone plane are the stored depths
  * themselves, so that every one of its pixels over a texel that it covers would be shadowed. */
-static void less_instead_of_less_or_equal_shadows_open_planes(uint64_t lights)
+static void samples_of_lone_planes_are_what_is_stored_so_less_would_shadow_them(uint64_t lights)
 {
     uint64_t covered = 0, by_less = 0, by_less_or_equal = 0, failures = 0;
     for (uint64_t n = 0; n < lights; n++) {
@@ -1003,7 +1006,7 @@ int main(int argc, char **argv)
 #endif
     planes_equal_stored_depths(cases);
     slack_is_what_snapping_asks_for(cases / 30);
-    less_instead_of_less_or_equal_shadows_open_planes(cases / 26000);
-    lone_shapes_do_not_shadow_themselves(cases / 2600);
+    samples_of_lone_planes_are_what_is_stored_so_less_would_shadow_them(cases / 26000);
+    lone_shapes_shadow_themselves_no_more_than_is_explained(cases / 2600);
     return tap_done();
 }

@@ -363,9 +363,9 @@ for option in '--receiver virtual' '--reconstruct pcf3' '--slope 2'; do
     check "$(echo "$option" | tr ' ' '_')_with_volumes_is_refused" refuses "${option% *} has no meaning for shadow volumes" \
         render "$scene" --method volumes $option -o "$folder/new.ppm"
 done
-check "a_receiver_of_one_column_is_refused" refuses "--receiver virtual with --reconstruct nearest, but the map is 1 x 8; expected" \
+check "a_receiver_of_one_column_is_refused" refuses "the receiver virtual with the reconstruction nearest, but the map is 1 x 8; expected" \
     render "$scene" --map 1x8 -o "$folder/new.ppm"
-check "a_reconstruction_of_one_row_is_refused" refuses "--receiver point with --reconstruct pcf3, but the map is 8 x 1; expected" \
+check "a_reconstruction_of_one_row_is_refused" refuses "the receiver point with the reconstruction pcf3, but the map is 8 x 1; expected" \
     render "$scene" --map 8x1 --method dual --reconstruct pcf3 -o "$folder/new.ppm"
 check "a_point_takes_a_map_of_one_texel" status 0 render "$scene" --map 1 --receiver point -o "$folder/a.ppm"
 check "a_negative_bias_is_refused" refuses "bias '-1t'" render "$scene" --method dual --bias -1t -o "$folder/new.ppm"

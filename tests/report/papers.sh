@@ -38,7 +38,7 @@ box() {
 for scene in torus2 pins pipes factory; do "$build/gnomon" procedural $scene -o "$work"; done
 sed 's/^image.*/image 1024 1024/' "$work/pipes.scene" >"$work/pipes1024.scene"
 
-# A table on a floor, legs 4 cm thick; the lamp stands 1 m above the table's top, 5 m off.
+# A table on a floor, legs 4 cm thick; the lamp stands 0.9 m above the table's top, 6.7 m off.
 box floor.obj -4 4 -.2 0 -4 4
 box table.obj -1.6 1.6 1.5 1.6 -1 1
 for z in "-.87 -.83" ".83 .87"; do
