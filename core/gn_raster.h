@@ -74,7 +74,7 @@ typedef struct gn_q_plane {
 
 /* The plane through three vertices with gradients g = 512 N / A, relative error 2^-29, + 1/2. Where a gradient reaches
  * 2^30, a quarter of the depth range in one texel, *plane is constant, the farthest vertex's, and the result is 1: then
- * gn_make_steep_plane has the plane itself. area != 0, of either sign. */
+ * gn_make_steep_plane has the plane itself. The vertices run clockwise; area: theirs, not 0, its sign is ignored. */
 int gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
                         int64_t area);
 
