@@ -1,6 +1,14 @@
 /* The cascade of a row, in blocks: points, votes, virtual samples, what is written. See gn_cascade.h. */
 #include "gn_cascade.h"
 
+/* What stands for no receiver. */
+static const gn_receiver the_point = {gn_cascade_row, 0, 0, 0, 0, 0, 1};
+
+static const gn_receiver *find_receiver(const gn_context *context)
+{
+    return context->settings.receiver ? context->settings.receiver : &the_point;
+}
+
 static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction *how)
 {
     gn_lookup l = {context->map,
@@ -49,7 +57,7 @@ static void count_stages(const gn_context *context, gn_worker *worker, const gn_
             continue;
         int outside = points->u[i] == GN_NOWHERE, resampled = points->resampled[i];
         int fractional = how->colour && points->dark[i] > 0 && points->dark[i] < how->whole;
-        uint32_t voted = !outside && (!context->settings.receiver || context->settings.receiver->votes);
+        uint32_t voted = !outside && find_receiver(context)->votes;
         s->pixels_outside += (uint32_t)outside;
         s->pixels_agreed += (uint32_t)(!outside && !resampled && !fractional);
         s->pixels_virtual += (uint32_t)resampled;
@@ -62,9 +70,9 @@ static void count_stages(const gn_context *context, gn_worker *worker, const gn_
 
 static gn_vote_at_once *find_short_cut(const gn_context *context)
 {
-    const gn_receiver *receiver = context->settings.receiver;
+    const gn_receiver *receiver = find_receiver(context);
     const gn_shading *s = &context->shading;
-    if (!receiver || context->settings.reconstruction)
+    if (context->settings.reconstruction)
         return 0;
     if (context->light.kind == GN_SPOT)
         return receiver->spotlit;
@@ -76,23 +84,23 @@ static gn_vote_at_once *find_short_cut(const gn_context *context)
 static void vote(const gn_context *context, gn_worker *worker, const gn_reconstruction *how, const gn_lookup *lookup,
                  gn_points *points, uint32_t *q)
 {
-    const gn_receiver *receiver = context->settings.receiver;
+    const gn_receiver *receiver = find_receiver(context);
     gn_find_points(context, points, q);
-    if (receiver && receiver->prepare)
+    if (receiver->prepare)
         receiver->prepare(context, worker, points);
-    if (!receiver || receiver->votes)
+    if (receiver->votes)
         how->vote(lookup, points);
 }
 
 void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count)
 {
-    const gn_receiver *receiver = context->settings.receiver;
+    const gn_receiver *receiver = find_receiver(context);
     const gn_reconstruction *how = context->settings.reconstruction;
     how = how ? how : receiver->nearest;
     gn_vote_at_once *at_once = find_short_cut(context);
     int in_place = how->whole == GN_DARK && context->light.kind != GN_SPOT;
     gn_lookup lookup = make_lookup(context, how);
-    uint32_t *q = worker->q + from, dark[GN_BLOCK];
+    uint32_t *q = worker->q + from;
     gn_points points;
     if (!context->camera_view.affine)
         gn_row_of_w(q, count, context->shading.w_shift);
@@ -104,7 +112,7 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
         points.x = x + done;
         points.count = count - done < GN_BLOCK ? count - done : GN_BLOCK;
         points.open_count = 0;
-        points.dark = in_place ? q : dark;
+        points.dark = in_place ? q : points.shares;
 #if GN_STATISTICS
         for (int32_t i = 0; i < points.count; i++)
             points.u[i] = points.resampled[i] = 0;
@@ -113,7 +121,7 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
             at_once(context, &lookup, &points, q);
         else
             vote(context, worker, how, &lookup, &points, q);
-        if (receiver && receiver->resample && (points.open_count || !receiver->votes))
+        if (receiver->resample && (points.open_count || !receiver->votes))
             receiver->resample(context, worker, &lookup, &points, how->sample);
 #if GN_STATISTICS
         count_stages(context, worker, &points, how);

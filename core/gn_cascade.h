@@ -56,11 +56,12 @@ GN_INLINE uint32_t gn_texel(uint32_t place, uint32_t last, uint32_t bits)
 typedef struct gn_points {
     uint32_t u[GN_BLOCK], v[GN_BLOCK]; /* in texels, from the centre of the first one, modulo 2^32; or GN_NOWHERE */
     uint32_t z[GN_BLOCK];              /* as the light pass steps it, 32 bits */
-    uint32_t *dark;                    /* shares that are shadowed, 0 to whole */
-    const uint32_t *triangle;          /* that the pixels see */
-    int32_t x, y, count;               /* pixels (x + i, y) */
-    gn_runner row[3];                  /* the view's expressions at pixel (x, y); directional: u, v as above */
-    int32_t open_count;                /* points on which the texels disagree, and their numbers */
+    uint32_t *dark;                    /* shares that are shadowed, 0 to whole: q itself, or these: */
+    uint32_t shares[GN_BLOCK];
+    const uint32_t *triangle; /* that the pixels see */
+    int32_t x, y, count;      /* pixels (x + i, y) */
+    gn_runner row[3];         /* the view's expressions at pixel (x, y); directional: u, v as above */
+    int32_t open_count;       /* points on which the texels disagree, and their numbers */
     uint8_t open[GN_BLOCK];
 #if GN_STATISTICS
     uint8_t resampled[GN_BLOCK]; /* 1: decided by virtual samples */
