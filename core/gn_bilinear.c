@@ -11,24 +11,21 @@ typedef struct tent {
     uint32_t x, y;                 /* weight of the second column and row, 0 to 256 */
 } tent;
 
-/* Along one axis: the first texel, and the weight of the second. */
-GN_INLINE uint32_t split(uint32_t place, uint32_t last, uint32_t bits, uint32_t *weight)
+/* The weight of the second texel along one axis. */
+GN_INLINE uint32_t weight(uint32_t place, uint32_t last, uint32_t bits)
 {
-    uint32_t texel = place >> bits;
-    if (GN_LIKELY(texel < last)) {
-        *weight = place >> (bits - 8) & 255u;
-        return texel;
-    }
-    int before = place >> 31 != 0;
-    *weight = before ? 0 : 256;
-    return before ? 0 : last - 1;
+    if (GN_LIKELY(place >> bits < last))
+        return place >> (bits - 8) & 255u;
+    return place >> 31 ? 0 : 256;
 }
 
 GN_INLINE tent make_tent(const gn_lookup *l, uint32_t u, uint32_t v)
 {
     tent t;
-    t.column = split(u, l->last_column, l->bits, &t.x);
-    t.row = split(v, l->last_row, l->bits, &t.y);
+    t.column = gn_first_of_two(u, l->last_column, l->bits);
+    t.row = gn_first_of_two(v, l->last_row, l->bits);
+    t.x = weight(u, l->last_column, l->bits);
+    t.y = weight(v, l->last_row, l->bits);
     t.above = l->map + t.row * l->stride + t.column;
     t.below = t.above + l->stride;
     return t;

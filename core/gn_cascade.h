@@ -29,7 +29,7 @@ typedef struct gn_lookup {
     uint32_t stride;
     uint32_t last_column, last_row;
     uint32_t bits;   /* fraction bits of u and v, 8 to 18 */
-    uint32_t inside; /* 1: no point lies at the border, but for what gn_hold says */
+    uint32_t inside; /* 1: no point lies at the border, but for what gn_index says */
     uint32_t whole;  /* shares of the reconstruction */
 } gn_lookup;
 
@@ -43,6 +43,13 @@ GN_INLINE uint32_t gn_dark_nowhere(const gn_lookup *lookup, uint32_t z)
 GN_INLINE uint32_t gn_texel(uint32_t place, uint32_t last, uint32_t bits)
 {
     return gn_hold(place + ((uint32_t)1 << (bits - 1)), bits, last);
+}
+
+/* The first of the two texels about a place u or v; at the border the last ones. */
+GN_INLINE uint32_t gn_first_of_two(uint32_t place, uint32_t last, uint32_t bits)
+{
+    uint32_t texel = place >> bits;
+    return GN_LIKELY(texel < last) ? texel : place >> 31 ? 0 : last - 1;
 }
 
 /* The usual error of a point's depth, of 2^32; more for far eyes and planes seen edge-on (docs/number-formats.md). By
@@ -135,8 +142,7 @@ void gn_start_points(const gn_context *context, gn_points *points);
 void gn_find_points(const gn_context *context, gn_points *points, uint32_t *q);
 uint32_t gn_point_bits(const gn_context *context);
 
-/* gn_receiver_plane.c: the plane of the triangle that a pixel sees, from the worker's cache. Two roundings of a plane
- * are possible, by the light pass and here: they are one function. */
+/* gn_receiver_plane.c: the plane of the triangle that a pixel sees, from the worker's cache. */
 const gn_receiver_plane *gn_find_plane(const gn_context *context, gn_worker *worker, uint32_t triangle);
 
 /* gn_fraction.c: as gn_colour_row, with the worker's fractions. */

@@ -324,7 +324,7 @@ GN_INLINE void insert(target *t, const gn_rows *rows, const gn_window *window)
         walk_first(t, rows, window);
     } else {
         if (t->how == RISING)
-            t->rise = gn_rise((int32_t)t->plane.dx, (int32_t)t->plane.dy);
+            t->rise = (uint32_t)gn_rise((int32_t)t->plane.dx, (int32_t)t->plane.dy);
         walk_any(t, rows, window);
     }
     GN_TALLY(t->tally->triangles++;)
@@ -339,7 +339,7 @@ static GN_COLD void insert_steep(target *t, const gn_mesh *mesh, const gn_vertex
     const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
     int64_t area = gn_area(v0, v1, v2);
     (void)gn_make_steep_plane(&t->steep_plane, v0, area > 0 ? v1 : v2, area > 0 ? v2 : v1, area);
-    t->rise = gn_rise(t->steep_plane.dx, t->steep_plane.dy);
+    t->rise = gn_saturate(gn_rise(t->steep_plane.dx, t->steep_plane.dy));
     t->steep = 1;
     set_lanes(t);
     walk_any(t, rows, window);

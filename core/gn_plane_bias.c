@@ -7,7 +7,7 @@
 /* slope h in units of z. */
 static uint32_t bias_of(const gn_wide_plane *plane, uint32_t slope)
 {
-    uint64_t bias = gn_multiply_u(gn_rise(plane->dx, plane->dy), slope) >> 16;
+    uint64_t bias = gn_multiply_u(gn_saturate(gn_rise(plane->dx, plane->dy)), slope) >> 16;
     return bias >> 32 ? 0xffffffffu : (uint32_t)bias;
 }
 

@@ -12,20 +12,14 @@ uint32_t gn_point_bits(const gn_context *context)
     return context->shading.position_bits < 8 ? 8 : context->shading.position_bits;
 }
 
-/* A box that need not hold every point; u and v are less by half a texel. Behind it points are compared at the far end
- * of the range. */
+/* A box that need not hold every point; u and v are less by half a texel. */
 static void test_box(const gn_context *context, gn_points *points, uint32_t half)
 {
-    const gn_shading *s = &context->shading;
-    uint32_t limit = 0x10000u << s->depth_bits;
+    uint32_t bits = context->shading.depth_bits;
     for (int32_t i = 0; i < points->count; i++) {
-        if ((points->u[i] + half) >> s->position_bits >= context->settings.map_width ||
-            (points->v[i] + half) >> s->position_bits >= context->settings.map_height || points->z[i] >> 31) {
-            points->u[i] = GN_NOWHERE;
-            points->z[i] = 0;
-        } else if (points->z[i] >= limit) {
-            points->z[i] = limit - 1;
-        }
+        int outside = gn_outside_box(context, points->u[i] + half, points->v[i] + half, points->z[i]);
+        points->u[i] = outside ? GN_NOWHERE : points->u[i];
+        points->z[i] = outside ? 0 : gn_hold_depth(points->z[i], bits) << (16u - bits);
     }
 }
 
@@ -65,11 +59,8 @@ static void find_directional(const gn_context *context, gn_points *points, const
             points->z[i] = (z.a + gn_w_product(w, z.b + step * z.b_dx)) << depth_shift;
         }
     }
-    if (!s->trusted) {
+    if (!s->trusted)
         test_box(context, points, half_texel(context));
-        for (int32_t i = 0; i < count; i++)
-            points->z[i] <<= 16u - s->depth_bits;
-    }
     if (bits != s->position_bits)
         widen(points, bits - s->position_bits, (uint32_t)1 << (bits - 1));
 }
@@ -85,8 +76,8 @@ static void find_spot(const gn_context *context, gn_points *points, uint32_t *q)
         q[i] = 0;
         points->u[i] = GN_NOWHERE;
         points->z[i] = 0xffffffffu;
-        if (distance - s->near_w > s->far_w - s->near_w || left >= distance || top >= distance)
-            continue; /* outside the frustum: unlit */
+        if (gn_outside_frustum(s, left, top, distance))
+            continue; /* unlit */
         uint32_t nearness = gn_divide_place(s, &left, &top, distance);
         points->u[i] = (uint32_t)(gn_multiply_u(left, width) >> 12) - GN_SPOT_HALF;
         points->v[i] = (uint32_t)(gn_multiply_u(top, height) >> 12) - GN_SPOT_HALF;

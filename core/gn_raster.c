@@ -102,8 +102,7 @@ int gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_ver
         plane->dx = plane->dy = 0;
         return 1;
     }
-    int64_t shift = gn_multiply(128 - v0->x, (int32_t)gx) + gn_multiply(128 - v0->y, (int32_t)gy);
-    plane->base = 2 * v0->depth + (uint32_t)gn_floor_shift_64(shift, 8);
+    plane->base = 2 * v0->depth + (uint32_t)gn_rise_from(v0, (int32_t)gx, (int32_t)gy);
     plane->dx = gx;
     plane->dy = gy;
     return 0;

@@ -61,10 +61,16 @@ GN_INLINE int64_t gn_wide_depth(const gn_wide_plane *plane, int32_t column, int3
     return plane->base + column * plane->dx + row * plane->dy;
 }
 
-/* What a plane rises within half a texel, (|dx| + |dy|) / 2, held within the range. */
-GN_INLINE uint32_t gn_rise(int64_t dx, int64_t dy)
+/* h: what a plane rises within half a texel, (|dx| + |dy|) / 2. */
+GN_INLINE int64_t gn_rise(int64_t dx, int64_t dy)
 {
-    return gn_saturate(gn_floor_shift_64((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy), 1));
+    return ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy)) / 2;
+}
+
+/* What a plane of these gradients rises from a vertex to the centre of texel (0, 0). */
+GN_INLINE int64_t gn_rise_from(const gn_vertex *v, int32_t dx, int32_t dy)
+{
+    return gn_floor_shift_64(gn_multiply(128 - v->x, dx) + gn_multiply(128 - v->y, dy), 8);
 }
 
 /* Q in the camera pass, with 32 fraction bits, modulo 2^64: Q(i, j) = floor((base + i dx + j dy) / 2^32). */

@@ -19,17 +19,6 @@ void gn_row_of_w(uint32_t *q, int32_t count, uint32_t shift)
     }
 }
 
-/* Depth in units of 1/65536 with bits fraction bits, cut as the light pass cuts it. Lit where it is at most what the
- * map holds: then the result is not negative. */
-GN_INLINE uint32_t compare(uint32_t z, uint32_t bits, gn_depth stored)
-{
-#if GN_DEPTH_BITS == 16
-    return stored - (z >> bits);
-#else
-    return z << (16 - bits) <= stored ? 0 : 0x80000000u;
-#endif
-}
-
 /* What a row's look-up needs, kept in registers. */
 typedef struct lookup {
     const gn_depth *map;
@@ -58,13 +47,10 @@ GN_INLINE uint32_t find_texel(const lookup *l, uint32_t u, uint32_t v)
     return gn_index(column, row, l->width, l->stride, l->last);
 }
 
-/* A light's box that need not hold every point: outside it lit, behind it compared at the far end of the range. */
+/* A light's box that need not hold every point. */
 GN_INLINE uint32_t test_box(const gn_context *context, const lookup *l, uint32_t u, uint32_t v, uint32_t depth)
 {
-    if (u >> l->position_bits >= context->settings.map_width || v >> l->position_bits >= context->settings.map_height ||
-        depth >> 31)
-        return 0;
-    return depth >> (16 + l->depth_bits) ? (0x10000u << l->depth_bits) - 1 : depth;
+    return gn_outside_box(context, u, v, depth) ? 0 : gn_hold_depth(depth, l->depth_bits);
 }
 
 /* Any camera, any box. */
@@ -77,7 +63,7 @@ static void shade_directional(const gn_context *context, uint32_t *q, int32_t x,
         uint32_t w = q[i], depth = gn_step(&z, w), column = gn_step(&u, w), row = gn_step(&v, w);
         if (!context->shading.trusted)
             depth = test_box(context, &l, column, row, depth);
-        q[i] = compare(depth, l.depth_bits, l.map[find_texel(&l, column, row)]);
+        q[i] = gn_compare(gn_cut_raw(depth, l.depth_bits), l.map[find_texel(&l, column, row)]);
     }
 }
 
@@ -106,7 +92,7 @@ static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int
                 uint32_t place_u = u.a + gn_w_product(q[i], u.b + (uint32_t)i * u.b_dx);
                 texel[i] = find_texel(&l, place_u, v.a + gn_w_product(q[i], v.b + (uint32_t)i * v.b_dx));
             }
-            q[i] = compare(depth[i], l.depth_bits, l.map[texel[i]]);
+            q[i] = gn_compare(gn_cut_raw(depth[i], l.depth_bits), l.map[texel[i]]);
         }
     }
 }
@@ -118,7 +104,7 @@ static void shade_trusted(const gn_context *context, uint32_t *q, int32_t x, int
     lookup l = make_lookup(context);
     for (uint32_t *end = q + count; q != end; q++) {
         uint32_t w = *q, texel = find_texel(&l, u.a + gn_w_product(w, u.b), v.a + gn_w_product(w, v.b));
-        *q = compare(z.a + gn_w_product(w, z.b), l.depth_bits, l.map[texel]);
+        *q = gn_compare(gn_cut_raw(z.a + gn_w_product(w, z.b), l.depth_bits), l.map[texel]);
         u.b += u.b_dx;
         v.b += v.b_dx;
         z.b += z.b_dx;
@@ -157,8 +143,8 @@ static void shade_spot(const gn_context *context, uint32_t *q, int32_t x, int32_
     for (int32_t i = 0; i < count; i++) {
         uint32_t w = q[i], left = gn_step(&u, w), top = gn_step(&v, w), distance = gn_step(&d, w);
         q[i] = 0x80000000u;
-        if (distance - s->near_w > s->far_w - s->near_w || left >= distance || top >= distance)
-            continue; /* outside the frustum: unlit */
+        if (gn_outside_frustum(s, left, top, distance))
+            continue; /* unlit */
         uint32_t nearness = gn_divide_place(s, &left, &top, distance);
         uint32_t column = (uint32_t)(gn_multiply_u(left, width << 2) >> 32);
         uint32_t row = (uint32_t)(gn_multiply_u(top, height << 2) >> 32);

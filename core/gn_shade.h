@@ -60,6 +60,37 @@ GN_INLINE uint32_t gn_index(uint32_t column, uint32_t row, uint32_t width, uint3
     return GN_ROW_PADDING ? number / width * stride + number % width : number;
 }
 
+/* A depth with bits fraction bits, in units of 1/65536, as the light pass cuts it. */
+GN_INLINE uint32_t gn_cut_raw(uint32_t z, uint32_t bits)
+{
+    return GN_DEPTH_BITS == 16 ? z >> bits : z << (16 - bits);
+}
+
+/* Lit where a depth that was cut is at most what the map holds: then the result is not negative. */
+GN_INLINE uint32_t gn_compare(uint32_t z, gn_depth stored)
+{
+    return GN_DEPTH_BITS == 16 ? stored - z : z <= stored ? 0 : 0x80000000u;
+}
+
+/* Outside a directional light's box, that is lit; behind it, that is compared at the far end of the range. u, v, z as
+ * gn_shading has them. */
+GN_INLINE int gn_outside_box(const gn_context *context, uint32_t u, uint32_t v, uint32_t z)
+{
+    uint32_t bits = context->shading.position_bits;
+    return u >> bits >= context->settings.map_width || v >> bits >= context->settings.map_height || z >> 31;
+}
+
+GN_INLINE uint32_t gn_hold_depth(uint32_t z, uint32_t bits)
+{
+    return z >> (16 + bits) ? (0x10000u << bits) - 1 : z;
+}
+
+/* Outside a spot light's frustum, by (X + W) / 2, (Y + W) / 2 and W. */
+GN_INLINE int gn_outside_frustum(const gn_shading *s, uint32_t left, uint32_t top, uint32_t w)
+{
+    return w - s->near_w > s->far_w - s->near_w || left >= w || top >= w;
+}
+
 /* u, v and near / w in 2^-30, from (X + W) / 2, (Y + W) / 2 and W; returns the last. */
 GN_INLINE uint32_t gn_divide_place(const gn_shading *s, uint32_t *left, uint32_t *top, uint32_t w)
 {

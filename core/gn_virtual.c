@@ -32,19 +32,12 @@ GN_INLINE uint32_t last_footprint(const gn_lookup *l)
     return (l->last_column + 1) * l->last_row - 2;
 }
 
-/* The first of the two texels about a place along one axis; at the border the last ones. */
-GN_INLINE uint32_t first_of_two(uint32_t place, uint32_t bits, uint32_t last)
-{
-    uint32_t texel = place >> bits;
-    return texel >= last ? (place >> 31 ? 0 : last - 1) : texel;
-}
-
 /* At the border: the four texels that are nearest lie to one side of a place in the outer half texel and cannot tell
  * that it is shadowed: a convex surface may be behind all of them. */
 static GN_NOINLINE uint32_t look_at_border(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t z)
 {
     const gn_depth *above =
-        l->map + first_of_two(v, l->bits, l->last_row) * l->stride + first_of_two(u, l->bits, l->last_column);
+        l->map + gn_first_of_two(v, l->last_row, l->bits) * l->stride + gn_first_of_two(u, l->last_column, l->bits);
     return agree(above, above + l->stride, z) ? OPEN : 0;
 }
 
@@ -74,19 +67,12 @@ static void vote_around(const gn_lookup *lookup, gn_points *points)
     const gn_lookup l = *lookup;
     for (int32_t i = 0; i < points->count; i++) {
         uint32_t u = points->u[i], z = points->z[i], vote;
-        if (GN_UNLIKELY(u == GN_NOWHERE)) {
+        if (GN_UNLIKELY(u == GN_NOWHERE))
             vote = gn_dark_nowhere(lookup, z);
-        } else {
+        else
             vote = look(&l, u, points->v[i], gn_cut(z));
-        }
         gn_vote_is(points, i, vote, GN_DARK);
     }
-}
-
-/* A depth with its fraction bits, in units of 1/65536, as the light pass cuts it. */
-GN_INLINE uint32_t cut_raw(uint32_t z, uint32_t bits)
-{
-    return GN_DEPTH_BITS == 16 ? z >> bits : z << (16 - bits);
 }
 
 /* The place of a pixel whose W was w. */
@@ -116,7 +102,7 @@ static void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint3
         uint32_t w = q[i], step = (uint32_t)i, column = (u.a + gn_w_product(w, u.b + step * u.b_dx)) >> l.bits;
         uint32_t row = (v.a + gn_w_product(w, v.b + step * v.b_dx)) >> l.bits;
         points->z[i] = column < l.last_column && row < l.last_row ? row * l.stride + column : GN_NO_INDEX;
-        points->v[i] = cut_raw(z.a + gn_w_product(w, z.b + step * z.b_dx), depth_bits);
+        points->v[i] = gn_cut_raw(z.a + gn_w_product(w, z.b + step * z.b_dx), depth_bits);
     }
     for (int32_t i = 0; i < count; i++) {
         const gn_depth *texel = l.map + points->z[i];
@@ -136,12 +122,6 @@ static void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint3
     gn_end_block(points);
 }
 #else
-/* Negative where a depth that was cut is behind a stored one. */
-GN_INLINE uint32_t compare(uint32_t z, gn_depth stored)
-{
-    return GN_DEPTH_BITS == 16 ? stored - z : z <= stored ? 0 : GN_DARK;
-}
-
 /* The number of the first of the four texels about each pixel, in points->z; rows are not padded. */
 static GN_NOINLINE void find_footprints(const gn_lookup *lookup, gn_points *points, const uint32_t *q)
 {
@@ -169,9 +149,9 @@ static GN_NOINLINE void vote_by_numbers(const gn_lookup *lookup, gn_points *poin
     uint32_t b = points->row[2].b, *end = q + points->count;
     points->row[2].b = b + (uint32_t)points->count * dx;
     do {
-        uint32_t depth = cut_raw(a + gn_w_product(*q++, b), depth_bits);
+        uint32_t depth = gn_cut_raw(a + gn_w_product(*q++, b), depth_bits);
         const gn_depth *texel = map + *first++;
-        uint32_t vote = compare(depth, texel[0]);
+        uint32_t vote = gn_compare(depth, texel[0]);
         b += dx;
         int open = (int32_t)vote >= 0 ? depth > texel[1] || depth > texel[below] || depth > texel[across]
                                       : depth <= texel[1] || depth <= texel[below] || depth <= texel[across];
@@ -207,9 +187,9 @@ static void vote_spotlit(const gn_context *context, const gn_lookup *lookup, gn_
     for (int32_t i = 0; i < points->count; i++) {
         uint32_t w = q[i], left = gn_step(&u, w), top = gn_step(&v, w), distance = gn_step(&d, w);
         q[i] = GN_DARK;
-        if (distance - s->near_w > s->far_w - s->near_w || left >= distance || top >= distance) {
+        if (gn_outside_frustum(s, left, top, distance)) {
             points->u[i] = GN_NOWHERE;
-            continue; /* outside the frustum: unlit */
+            continue; /* unlit */
         }
         uint32_t nearness = gn_divide_place(s, &left, &top, distance);
         uint32_t place_u = (uint32_t)(gn_multiply_u(left, width) >> 12) - GN_SPOT_HALF;

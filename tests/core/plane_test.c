@@ -630,8 +630,9 @@ static void planes_done_by_hand(void)
            gn_saturate(INT64_C(1) << 32) == 0xffffffffu && gn_saturate(INT64_MAX) == 0xffffffffu &&
            gn_saturate(INT64_MIN) == 0,
        "saturation, by hand");
-    ok(gn_rise(3, -4) == 3 && gn_rise(-1, 0) == 0 && gn_rise(INT64_C(1) << 32, -(INT64_C(1) << 32)) == 0xffffffffu &&
-           gn_rise(-(INT64_C(1) << 32), (INT64_C(1) << 32) - 1) == 0xffffffffu,
+    const int64_t whole = INT64_C(1) << 32;
+    ok(gn_saturate(gn_rise(3, -4)) == 3 && gn_saturate(gn_rise(-1, 0)) == 0 &&
+           gn_saturate(gn_rise(whole, -whole)) == 0xffffffffu && gn_saturate(gn_rise(-whole, whole - 1)) == 0xffffffffu,
        "half a pixel's rise is cut, and held, by hand");
 }
 

@@ -852,8 +852,8 @@ static void ties_are_lit(uint64_t cases)
         uint32_t bits = (uint32_t)between(0, 14), z = (uint32_t)between(0, (1 << (16 + bits)) - 1);
         uint32_t step = GN_DEPTH_BITS == 16 ? 1 : 1u << (16 - bits);
         gn_depth stored = (gn_depth)(GN_DEPTH_BITS == 16 ? z >> bits : z << (16 - bits));
-        own += (int32_t)compare(z, bits, stored) < 0;
-        shadowed += stored < step || (int32_t)compare(z, bits, (gn_depth)(stored - step)) < 0;
+        own += (int32_t)gn_compare(gn_cut_raw(z, bits), stored) < 0;
+        shadowed += stored < step || (int32_t)gn_compare(gn_cut_raw(z, bits), (gn_depth)(stored - step)) < 0;
     }
     ok(!own, "what lies at the map's own depth is lit: %llu of %llu are not", (unsigned long long)own,
        (unsigned long long)cases);

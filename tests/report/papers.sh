@@ -11,20 +11,8 @@ here=$(dirname "$0")
 # shellcheck source=SCRIPTDIR/shots.sh
 . "$here/shots.sh"
 
-if [ $# -ne 3 ] || [ "$2" != -o ]; then
-    echo "usage: tests/report/papers.sh BUILD -o FOLDER" >&2
-    exit 2
-fi
-build=$1
-folder=$3
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-trap 'exit 2' HUP INT TERM
-mkdir -p "$folder" "$work/strict"
-
-build_program stages "$work/stages"
-build_program mosaic "$work/mosaic"
+start_pictures "$@"
+mkdir -p "$work/strict"
 
 # ---- scenes --------------------------------------------------------------------------------------------------------
 

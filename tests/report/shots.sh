@@ -1,9 +1,25 @@
-# shellcheck shell=sh disable=SC2154 # build, work and folder are the caller's
-# Frames, their figures, and pictures made of them; for scripts of this folder to read with `.`. They set:
+# shellcheck shell=sh
+# Frames, their figures, and pictures made of them; for scripts of this folder to read with `.`.
+
+# start_pictures BUILD -o FOLDER: the script's own arguments. Builds the programs `stages` and `mosaic`, and sets
 #
 #     build     the folder of `make BUILD=... all`, with OpenImageIO
-#     work      a folder for what is in between: scenes, NAME.pgm the truth of NAME.scene
+#     work      a folder for what is in between: scenes, NAME.pgm the truth of NAME.scene; removed at the end
 #     folder    where finished pictures go
+start_pictures() {
+    if [ $# -ne 3 ] || [ "$2" != -o ]; then
+        echo "usage: $0 BUILD -o FOLDER" >&2
+        exit 2
+    fi
+    build=$1
+    folder=$3
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+    trap 'exit 2' HUP INT TERM
+    mkdir -p "$folder"
+    build_program stages "$work/stages"
+    build_program mosaic "$work/mosaic"
+}
 
 # build_program NAME OUT: tests/report/NAME.c with the core and the simulator, but for its main. At the top of the project.
 build_program() {
