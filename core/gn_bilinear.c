@@ -58,7 +58,7 @@ static void vote(const gn_lookup *lookup, gn_points *points)
     }
 }
 
-static uint32_t sample(const gn_lookup *l, const gn_points *points, int32_t i, const gn_wide_plane *plane)
+static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
     tent t = make_tent(l, points->u[i], points->v[i]);
     int64_t above = gn_wide_depth(plane, (int32_t)t.column, (int32_t)t.row), below = above + plane->dy;
@@ -66,4 +66,4 @@ static uint32_t sample(const gn_lookup *l, const gn_points *points, int32_t i, c
                  gn_cut(gn_saturate(below)) > t.below[0], gn_cut(gn_saturate(below + plane->dx)) > t.below[1]);
 }
 
-const gn_reconstruction gn_bilinear = {gn_cascade_row, vote, sample, gn_colour_fractions, WHOLE, 4, 4};
+const gn_reconstruction gn_bilinear = {gn_cascade_row, vote, sample, gn_colour_fractions, WHOLE, 4, 4, 0, 0};

@@ -69,11 +69,11 @@ static void vote_any(const gn_lookup *lookup, gn_points *points)
     vote(lookup, points, lookup->whole == 9 ? 1 : lookup->whole == 25 ? 2 : 3);
 }
 
-static uint32_t sample(const gn_lookup *l, const gn_points *points, int32_t i, const gn_wide_plane *plane)
+static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
     return count_dark(l, points->u[i], points->v[i], 0, plane, l->whole == 9 ? 1 : l->whole == 25 ? 2 : 3);
 }
 
-const gn_reconstruction gn_box_3x3 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 9, 9, 9};
-const gn_reconstruction gn_box_5x5 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 25, 25, 25};
-const gn_reconstruction gn_box_7x7 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 49, 49, 49};
+const gn_reconstruction gn_box_3x3 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 9, 9, 9, 0, 0};
+const gn_reconstruction gn_box_5x5 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 25, 25, 25, 0, 0};
+const gn_reconstruction gn_box_7x7 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 49, 49, 49, 0, 0};

@@ -1,5 +1,6 @@
 /* The cascade of a row, in blocks: points, votes, virtual samples, what is written. See gn_cascade.h. */
 #include "gn_cascade.h"
+#include "gn_silhouette_map.h"
 
 /* What stands for no receiver. */
 static const gn_receiver the_point = {gn_cascade_row, 0, 0, 0, 0, 0, 1};
@@ -7,6 +8,12 @@ static const gn_receiver the_point = {gn_cascade_row, 0, 0, 0, 0, 0, 1};
 static const gn_receiver *find_receiver(const gn_context *context)
 {
     return context->settings.receiver ? context->settings.receiver : &the_point;
+}
+
+static const gn_reconstruction *find_reconstruction(const gn_context *context)
+{
+    const gn_reconstruction *how = context->settings.reconstruction;
+    return how ? how : find_receiver(context)->nearest;
 }
 
 static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction *how)
@@ -17,7 +24,8 @@ static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction 
                    context->settings.map_height - 1u,
                    gn_point_bits(context),
                    context->light.kind != GN_SPOT && context->shading.trusted == GN_WELL_INSIDE,
-                   how->whole};
+                   how->whole,
+                   context->drawn ? context->drawn->map : 0};
     return l;
 }
 
@@ -56,12 +64,13 @@ static void count_stages(const gn_context *context, gn_worker *worker, const gn_
         if (points->triangle[i] == GN_NO_TRIANGLE || !gn_find_pair(context, worker, points->triangle[i])->faces_light)
             continue;
         int outside = points->u[i] == GN_NOWHERE, resampled = points->resampled[i];
-        int fractional = how->colour && points->dark[i] > 0 && points->dark[i] < how->whole;
+        int reconstructed = points->reconstructed[i], fractional = how->whole != GN_DARK && points->dark[i] > 0 && points->dark[i] < how->whole;
         uint32_t voted = !outside && find_receiver(context)->votes;
         s->pixels_outside += (uint32_t)outside;
-        s->pixels_agreed += (uint32_t)(!outside && !resampled && !fractional);
+        s->pixels_agreed += (uint32_t)(!outside && !resampled && !fractional && !reconstructed);
         s->pixels_virtual += (uint32_t)resampled;
         s->pixels_fractional += (uint32_t)fractional;
+        s->pixels_silhouette += (uint32_t)reconstructed;
         s->texels_read += voted * how->votes + (resampled ? how->samples : 0);
         s->virtual_samples += resampled ? how->samples : 0;
     }
@@ -72,7 +81,7 @@ static gn_vote_at_once *find_short_cut(const gn_context *context)
 {
     const gn_receiver *receiver = find_receiver(context);
     const gn_shading *s = &context->shading;
-    if (context->settings.reconstruction)
+    if (!receiver->nearest || find_reconstruction(context)->vote != receiver->nearest->vote)
         return 0;
     if (context->light.kind == GN_SPOT)
         return receiver->spotlit;
@@ -92,11 +101,20 @@ static void vote(const gn_context *context, gn_worker *worker, const gn_reconstr
         how->vote(lookup, points);
 }
 
+/* Sample open points by their own depth. */
+static void settle(const gn_reconstruction *how, const gn_lookup *lookup, gn_points *points)
+{
+    for (int32_t n = 0; n < points->open_count; n++) {
+        int32_t i = points->open[n];
+        gn_wide_plane level = {points->z[i], 0, 0};
+        points->dark[i] = how->sample(lookup, points, i, &level);
+    }
+}
+
 void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count)
 {
     const gn_receiver *receiver = find_receiver(context);
-    const gn_reconstruction *how = context->settings.reconstruction;
-    how = how ? how : receiver->nearest;
+    const gn_reconstruction *how = find_reconstruction(context);
     gn_vote_at_once *at_once = find_short_cut(context);
     int in_place = how->whole == GN_DARK && context->light.kind != GN_SPOT;
     gn_lookup lookup = make_lookup(context, how);
@@ -115,7 +133,7 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
         points.dark = in_place ? q : points.shares;
 #if GN_STATISTICS
         for (int32_t i = 0; i < points.count; i++)
-            points.u[i] = points.resampled[i] = 0;
+            points.u[i] = points.resampled[i] = points.reconstructed[i] = 0;
 #endif
         if (at_once)
             at_once(context, &lookup, &points, q);
@@ -123,10 +141,12 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
             vote(context, worker, how, &lookup, &points, q);
         if (receiver->resample && (points.open_count || !receiver->votes))
             receiver->resample(context, worker, &lookup, &points, how->sample);
+        else if (how->settles)
+            settle(how, &lookup, &points);
 #if GN_STATISTICS
         count_stages(context, worker, &points, how);
 #endif
-        if (how->colour)
+        if (how->whole != GN_DARK)
             write_fractions(&points, how->whole, worker->fraction + done);
         else if (at_once && !in_place)
             write_open(&points, q);

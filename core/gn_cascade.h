@@ -31,6 +31,7 @@ typedef struct gn_lookup {
     uint32_t bits;   /* fraction bits of u and v, 8 to 18 */
     uint32_t inside; /* 1: no point lies at the border, but for what gn_index says */
     uint32_t whole;  /* shares of the reconstruction */
+    const uint8_t *silhouettes; /* the silhouette map; 0 without */
 } gn_lookup;
 
 /* The shadowed shares of a point that lies nowhere on the map. */
@@ -71,7 +72,8 @@ typedef struct gn_points {
     int32_t open_count;       /* points on which the texels disagree, and their numbers */
     uint8_t open[GN_BLOCK];
 #if GN_STATISTICS
-    uint8_t resampled[GN_BLOCK]; /* 1: decided by virtual samples */
+    uint8_t resampled[GN_BLOCK];     /* 1: decided by virtual samples */
+    uint8_t reconstructed[GN_BLOCK]; /* 1: decided by the silhouette map */
 #endif
 } gn_points;
 
@@ -108,7 +110,7 @@ GN_INLINE void gn_vote_is(gn_points *points, int32_t i, uint32_t dark, uint32_t 
 typedef void gn_row_shader(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count);
 typedef void gn_vote_at_once(const gn_context *context, const gn_lookup *lookup, gn_points *points, uint32_t *q);
 typedef void gn_vote(const gn_lookup *lookup, gn_points *points);
-typedef uint32_t gn_sample(const gn_lookup *lookup, const gn_points *points, int32_t i, const gn_wide_plane *plane);
+typedef uint32_t gn_sample(const gn_lookup *lookup, gn_points *points, int32_t i, const gn_wide_plane *plane);
 
 struct gn_receiver {
     gn_row_shader *shade; /* gn_cascade_row */
@@ -127,10 +129,18 @@ struct gn_reconstruction {
     gn_row_shader *shade;     /* gn_cascade_row */
     gn_vote *vote;            /* sets dark of all points by their own depth, and says which are open */
     gn_sample *sample;        /* the shadowed shares of a point, by a plane */
-    gn_colour_shader *colour; /* of fractions; 0: there are none */
+    gn_colour_shader *colour; /* gn_colour_fractions, or gn_colour_row where whole is GN_DARK */
     uint32_t whole;           /* shares: at most 2^16, or GN_DARK */
     uint8_t votes, samples;   /* depths that vote and sample compare */
+    uint8_t settles; /* 1: where a receiver has no resample, open points are sampled with their own depth */
+    const gn_drawing *drawing; /* what the light pass draws for it beside depths; 0: nothing */
 };
+
+/* What the light pass draws beside depths, or 0. */
+GN_INLINE const gn_drawing *gn_find_drawing(const gn_settings *settings)
+{
+    return settings->shadow == GN_SHADOW_MAP && settings->reconstruction ? settings->reconstruction->drawing : 0;
+}
 
 /* Test count pixels of a row, from worker->q[from] on: what gn_shade_row does, with the settings' receiver and
  * reconstruction; worker->fraction: the lit parts of 254. */

@@ -8,6 +8,10 @@
 #include "gnomon.h"
 
 #define GN_NO_TRIANGLE 0xffffffffu
+#define GN_FARTHEST ((gn_depth)0xffffffffu) /* what an empty texel holds */
+
+typedef struct gn_drawing gn_drawing;
+typedef struct gn_drawn gn_drawn;
 
 /* Colour pairs of triangles in view, kept per worker: a direct-mapped cache, a power of two. Trades RAM (24 bytes an
  * entry) against time; never changes a pixel. */
@@ -83,6 +87,7 @@ struct gn_context {
     gn_vertex *vertices;
     uint32_t triangle_bits;     /* identifier = object << triangle_bits | triangle */
     struct gn_volumes *volumes; /* 0 with shadow maps */
+    gn_drawn *drawn;            /* gn_silhouette_map.h; 0 without */
 
     gn_light light;
     gn_view light_view;
@@ -151,6 +156,12 @@ GN_INLINE int gn_has_second(const gn_plan *plan, const gn_settings *settings)
 {
     return plan->layers == GN_LAYERS_TWO || settings->surface == GN_SLOPE;
 }
+
+/* Take bytes from the block, aligned, and count them; without a block count alone. */
+void *gn_take(uint8_t *base, uint64_t *used, uint64_t bytes);
+
+/* gn_light_pass.c: the nearest depths of one row of the map once more, into map_stride depths, without marks. */
+void gn_nearest_row(gn_context *context, uint32_t worker, int32_t row, gn_depth *depths);
 
 /* Lay out the shared part of the block for one pass; returns its size. With a null context only the size. */
 uint64_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings);

@@ -17,7 +17,7 @@ GN_INLINE uint32_t texel_at(uint32_t u, uint32_t cell, uint32_t sixteenths, uint
 }
 
 /* The shadowed places by a plane, or, where that is 0, by one depth. */
-GN_INLINE uint32_t count_dark(const gn_lookup *l, const gn_points *points, int32_t i, const gn_wide_plane *plane)
+GN_INLINE uint32_t count_dark(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
     uint32_t x = (uint32_t)(points->x + i), y = (uint32_t)points->y, z = gn_cut(points->z[i]), dark = 0;
     for (uint32_t k = 0; k < WHOLE; k++) {
@@ -41,9 +41,9 @@ static void vote(const gn_lookup *lookup, gn_points *points)
                    WHOLE);
 }
 
-static uint32_t sample(const gn_lookup *l, const gn_points *points, int32_t i, const gn_wide_plane *plane)
+static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
     return count_dark(l, points, i, plane);
 }
 
-const gn_reconstruction gn_jitter_4x4 = {gn_cascade_row, vote, sample, gn_colour_fractions, WHOLE, 16, 16};
+const gn_reconstruction gn_jitter_4x4 = {gn_cascade_row, vote, sample, gn_colour_fractions, WHOLE, 16, 16, 0, 0};

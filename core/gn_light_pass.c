@@ -10,11 +10,11 @@
  *
  * An empty layer holds the largest value. Cost: a texel 8 instructions on a Cortex-M4, two layers 14 at most.
  * Memory: map, 12 bytes a vertex, the second layer of one region a worker. */
+#include "gn_cascade.h"
 #include "gn_clip.h"
-#include "gn_context.h"
+#include "gn_silhouette_map.h"
 #include "gn_tally.h"
 
-#define GN_FARTHEST ((gn_depth)0xffffffffu)
 #define GN_DEPTH_SHIFT (32 - GN_DEPTH_BITS)
 
 /* ---- spans ----------------------------------------------------------------------------------------------------- */
@@ -30,6 +30,7 @@ typedef struct target {
     uint32_t open; /* 1: mark as open (mixed) */
     uint32_t rise; /* h of the plane, units of z (slope) */
     int steep;     /* too steep for plane: the other one */
+    int nearest;   /* the first layer alone */
     gn_wide_plane steep_plane;
     insertion how;
 #if GN_VECTOR_16
@@ -374,7 +375,7 @@ static void insert_mesh(const gn_context *context, target *t, uint32_t object_in
     const gn_vertex *vertices = context->vertices + context->objects[object_index].first_vertex;
     int culled = culled_sign(context, object_index), clips = context->objects[object_index].clips;
     uint32_t count = mesh->triangle_count, flip = culled > 0 ? 0 : 0x80000000u;
-    t->how = choose_insertion(context, mesh);
+    t->how = t->nearest ? FIRST : choose_insertion(context, mesh);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t index[3];
         gn_triangle_indices(mesh, i, index);
@@ -491,6 +492,11 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
         return status;
     int known = light->kind == GN_DIRECTIONAL && !has_models(context->scene);
     context->light_trusted = (uint8_t)(known ? inside : GN_NOT_INSIDE);
+    const gn_drawing *drawing = gn_find_drawing(&context->settings);
+    if (drawing)
+        status = drawing->begin(context);
+    if (status != GN_OK)
+        return status;
     context->bias = gn_make_bias(context);
     context->tan_squared = (uint32_t)(gn_multiply_u(light->tan_half, light->tan_half) >> 29);
     for (uint32_t i = 0; i < context->plan.light_regions; i++)
@@ -503,6 +509,20 @@ static void clear(gn_depth *layer, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         layer[i] = GN_FARTHEST;
+}
+
+/* All triangles into a window of the map. */
+static GN_NOINLINE void draw_window(gn_context *context, gn_statistics *statistics, target *t, const gn_window *window)
+{
+    GN_TALLY(gn_tally tally = {0}; t->tally = &tally;)
+    (void)statistics;
+    t->steep = 0;
+    for (uint32_t i = 0; i < context->scene->object_count; i++) {
+        t->open = !context->scene->objects[i].mesh->closed;
+        insert_mesh(context, t, i, window);
+    }
+    GN_TALLY(statistics->light_triangles += tally.triangles;)
+    GN_TALLY(statistics->light_texels += gn_tally_centres(&tally);)
 }
 
 gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
@@ -519,19 +539,29 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     t.second = w->second;
     t.second_offset = (int32_t)(first_row * stride);
     t.stride = (int32_t)stride;
-    t.steep = 0;
+    t.nearest = 0;
     clear(context->map + (size_t)first_row * stride, (size_t)rows * stride);
     if (t.second)
         clear(t.second, (size_t)rows * stride);
-    GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
-    for (uint32_t i = 0; i < context->scene->object_count; i++) {
-        t.open = !context->scene->objects[i].mesh->closed;
-        insert_mesh(context, &t, i, &window);
-    }
-    GN_TALLY(w->statistics.light_triangles += tally.triangles;)
-    GN_TALLY(w->statistics.light_texels += gn_tally_centres(&tally);)
+    draw_window(context, &w->statistics, &t, &window);
+    const gn_drawing *drawing = gn_find_drawing(&context->settings);
+    if (drawing)
+        drawing->draw(context, region, worker);
     context->progress[region] = GN_REGION_LAYERS;
     return GN_OK;
+}
+
+void gn_nearest_row(gn_context *context, uint32_t worker, int32_t row, gn_depth *depths)
+{
+    gn_window window = {0, row, context->settings.map_width, row + 1};
+    target t;
+    t.first = depths;
+    t.second = 0;
+    t.second_offset = 0;
+    t.stride = 0; /* all rows are one */
+    t.nearest = 1;
+    clear(depths, context->map_stride);
+    draw_window(context, &context->workers[worker].statistics, &t, &window);
 }
 
 const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t region, uint32_t worker,

@@ -1,5 +1,6 @@
 /* Planning: what a scene needs, checked and laid out before anything is rendered. */
 #include "gn_cascade.h"
+#include "gn_silhouette_map.h"
 #include "gn_volumes.h"
 
 gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_size)
@@ -136,8 +137,7 @@ static uint64_t align_up(uint64_t bytes)
     return (bytes + GN_ALIGNMENT - 1) / GN_ALIGNMENT * GN_ALIGNMENT;
 }
 
-/* Take bytes from the block, or only count them. */
-static void *take(uint8_t *base, uint64_t *used, uint64_t bytes)
+void *gn_take(uint8_t *base, uint64_t *used, uint64_t bytes)
 {
     void *p = base ? base + (size_t)*used : 0;
     *used = align_up(*used + bytes);
@@ -155,10 +155,10 @@ static uint64_t lay_out_volumes(gn_context *context, uint64_t from, const gn_pla
 {
     uint8_t *base = (uint8_t *)context;
     uint64_t used = from;
-    gn_volumes *volumes = take(base, &used, sizeof *volumes);
-    gn_volumes_worker *workers = take(base, &used, (uint64_t)settings->workers * sizeof *workers);
-    uint8_t *facings = take(base, &used, ((uint64_t)plan->triangles + 3) / 4);
-    gn_silhouette *silhouettes = take(base, &used, (uint64_t)plan->edges * sizeof *silhouettes);
+    gn_volumes *volumes = gn_take(base, &used, sizeof *volumes);
+    gn_volumes_worker *workers = gn_take(base, &used, (uint64_t)settings->workers * sizeof *workers);
+    uint8_t *facings = gn_take(base, &used, ((uint64_t)plan->triangles + 3) / 4);
+    gn_silhouette *silhouettes = gn_take(base, &used, (uint64_t)plan->edges * sizeof *silhouettes);
     if (context) {
         gn_volumes empty = {0};
         *volumes = empty;
@@ -169,9 +169,9 @@ static uint64_t lay_out_volumes(gn_context *context, uint64_t from, const gn_pla
     }
     for (uint32_t i = 0; i < settings->workers; i++) {
         uint64_t pixels = (uint64_t)plan->region_width * plan->region_height;
-        int64_t *point = take(base, &used, pixels * sizeof *point);
-        uint16_t *count = take(base, &used, pixels * sizeof *count);
-        gn_seen_plane *planes = take(base, &used, GN_COLOUR_CACHE * sizeof *planes);
+        int64_t *point = gn_take(base, &used, pixels * sizeof *point);
+        uint16_t *count = gn_take(base, &used, pixels * sizeof *count);
+        gn_seen_plane *planes = gn_take(base, &used, GN_COLOUR_CACHE * sizeof *planes);
         if (context) {
             workers[i].point = point;
             workers[i].count = count;
@@ -188,11 +188,11 @@ static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const g
     int volumes = settings->shadow == GN_SHADOW_VOLUMES;
     uint8_t *base = (uint8_t *)context;
     uint64_t used = align_up(sizeof(gn_context));
-    gn_object_state *objects = take(base, &used, (uint64_t)scene->object_count * sizeof *objects);
-    gn_worker *workers = take(base, &used, (uint64_t)settings->workers * sizeof *workers);
-    uint8_t *progress = take(base, &used, plan->light_regions);
+    gn_object_state *objects = gn_take(base, &used, (uint64_t)scene->object_count * sizeof *objects);
+    gn_worker *workers = gn_take(base, &used, (uint64_t)settings->workers * sizeof *workers);
+    uint8_t *progress = gn_take(base, &used, plan->light_regions);
     gn_depth *map =
-        take(base, &used, volumes ? 0 : (uint64_t)map_stride(settings) * settings->map_height * sizeof *map);
+        gn_take(base, &used, volumes ? 0 : (uint64_t)map_stride(settings) * settings->map_height * sizeof *map);
     if (context) {
         context->objects = objects;
         context->workers = workers;
@@ -200,7 +200,11 @@ static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const g
         context->map = map;
         context->map_stride = map_stride(settings);
         context->volumes = 0;
+        context->drawn = 0;
     }
+    const gn_drawing *drawing = gn_find_drawing(settings);
+    if (drawing)
+        used = drawing->lay_out_head(context, used, scene, settings);
     if (volumes)
         used += lay_out_volumes(context, used, plan, settings);
     if (context)
@@ -212,15 +216,16 @@ uint64_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_set
 {
     uint8_t *base = context ? context->shared : 0;
     uint64_t used = 0;
-    gn_vertex *vertices = take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
+    gn_vertex *vertices = gn_take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
     if (context)
         context->vertices = vertices;
     for (uint32_t i = 0; gn_has_second(plan, settings) && i < settings->workers; i++) {
-        gn_depth *second = take(base, &used, (uint64_t)plan->map_rows * map_stride(settings) * sizeof *second);
+        gn_depth *second = gn_take(base, &used, (uint64_t)plan->map_rows * map_stride(settings) * sizeof *second);
         if (context)
             context->workers[i].second = second;
     }
-    return used;
+    const gn_drawing *drawing = gn_find_drawing(settings);
+    return drawing ? drawing->lay_out_light(context, used, plan, settings) : used;
 }
 
 uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings)
@@ -229,14 +234,14 @@ uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_se
     uint64_t used = 0;
     uint32_t bands, levels, bins, pixels = (uint32_t)plan->region_width * plan->region_height;
     int maps = settings->shadow == GN_SHADOW_MAP, receives = maps && settings->receiver;
-    int filters = maps && settings->reconstruction;
+    int filters = maps && settings->reconstruction && settings->reconstruction->whole != GN_DARK;
     gn_count_bins(plan, settings, &bands, &levels, &bins);
-    gn_vertex *vertices = take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
-    uint32_t *first = take(base, &used, bins ? ((uint64_t)bins + 1) * 4 : 0);
-    uint32_t *items = take(base, &used, bins ? (uint64_t)plan->triangles * 4 : 0);
+    gn_vertex *vertices = gn_take(base, &used, (uint64_t)plan->vertices * sizeof *vertices);
+    uint32_t *first = gn_take(base, &used, bins ? ((uint64_t)bins + 1) * 4 : 0);
+    uint32_t *items = gn_take(base, &used, bins ? (uint64_t)plan->triangles * 4 : 0);
     uint64_t pixel_bytes = settings->format == GN_RGB888 ? 3 : settings->format == GN_RGB565 ? 2 : 0;
-    void *colour = take(base, &used, pixels * pixel_bytes);
-    uint8_t *mask = take(base, &used, settings->mask ? pixels : 0);
+    void *colour = gn_take(base, &used, pixels * pixel_bytes);
+    uint8_t *mask = gn_take(base, &used, settings->mask ? pixels : 0);
     if (context) {
         context->vertices = vertices;
         context->bin_first = first;
@@ -249,10 +254,10 @@ uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_se
     }
     for (uint32_t i = 0; i < settings->workers; i++) {
         uint64_t plane = ((uint64_t)pixels + GN_ROW_PADDING) * 4;
-        uint32_t *q = take(base, &used, plane), *triangle = take(base, &used, plane);
-        gn_colour_pair *colours = take(base, &used, GN_COLOUR_CACHE * sizeof *colours);
-        gn_receiver_plane *planes = take(base, &used, receives ? GN_COLOUR_CACHE * sizeof *planes : 0);
-        uint8_t *fraction = take(base, &used, filters ? plan->region_width : 0);
+        uint32_t *q = gn_take(base, &used, plane), *triangle = gn_take(base, &used, plane);
+        gn_colour_pair *colours = gn_take(base, &used, GN_COLOUR_CACHE * sizeof *colours);
+        gn_receiver_plane *planes = gn_take(base, &used, receives ? GN_COLOUR_CACHE * sizeof *planes : 0);
+        uint8_t *fraction = gn_take(base, &used, filters ? plan->region_width : 0);
         if (context) {
             context->workers[i].planes = receives ? planes : 0;
             context->workers[i].fraction = filters ? fraction : 0;
@@ -276,6 +281,9 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
     if (status == GN_OK)
         status =
             settings->shadow == GN_SHADOW_VOLUMES ? check_volumes(scene, &c) : choose_layers(&p, settings, c.closed);
+    const gn_drawing *drawing = gn_find_drawing(settings);
+    if (status == GN_OK && drawing)
+        status = drawing->check(scene);
     if (status != GN_OK)
         return status;
     /* Regions of about 2560 pixels: 20 KiB a worker. Whole rows keep spans long. */
@@ -299,6 +307,8 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
         return GN_TOO_MANY;
     if (settings->shadow == GN_SHADOW_MAP)
         p.map_bytes = (size_t)map_stride(settings) * settings->map_height * sizeof(gn_depth);
+    if (drawing)
+        p.silhouette_bytes = (size_t)settings->map_width * settings->map_height;
     p.light_bytes = (size_t)light;
     p.camera_bytes = (size_t)camera;
     p.bytes = p.light_bytes > p.camera_bytes ? p.light_bytes : p.camera_bytes;
@@ -367,10 +377,14 @@ void gn_get_statistics(const gn_context *context, gn_statistics *statistics)
         sum.pixels_fractional += s->pixels_fractional;
         sum.texels_read += s->texels_read;
         sum.virtual_samples += s->virtual_samples;
+        sum.pixels_silhouette += s->pixels_silhouette;
+        sum.silhouette_texels += s->silhouette_texels;
         sum.volume_faces += s->volume_faces;
         sum.volume_fragments += s->volume_fragments;
     }
     sum.silhouette_edges = context->volumes ? context->volumes->silhouette_count : 0;
+    if (context->drawn)
+        sum.silhouette_edges = context->drawn->count;
     sum.map_bytes = context->plan.map_bytes;
     *statistics = sum;
 }

@@ -37,5 +37,5 @@ static void vote_nearest(const gn_lookup *l, gn_points *points)
     }
 }
 
-static const gn_reconstruction nearest = {gn_cascade_row, vote_nearest, 0, 0, GN_DARK, 1, 0};
+static const gn_reconstruction nearest = {gn_cascade_row, vote_nearest, 0, 0, GN_DARK, 1, 0, 0, 0};
 const gn_receiver gn_plane_bias = {gn_cascade_row, move_nearer, 0, 0, 0, &nearest, 1};

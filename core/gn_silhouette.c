@@ -1,6 +1,6 @@
 #include "gn_silhouette.h"
 
-static void half_edge_ends(const gn_mesh *mesh, uint32_t half, uint32_t ends[2])
+void gn_half_edge_ends(const gn_mesh *mesh, uint32_t half, uint32_t ends[2])
 {
     uint32_t index[3], triangle = half / 3, corner = half - 3 * triangle;
     gn_triangle_indices(mesh, triangle, index);
@@ -25,12 +25,12 @@ int64_t gn_beyond_near(const gn_light *light, const int32_t point[3])
     return w - gn_multiply(light->near_depth, 1 << 30);
 }
 
-static gn_facing find_facing(const gn_light *light, int32_t world[3][3])
+static gn_facing find_facing(const gn_light *light, int32_t world[3][3], int cuts)
 {
     int side = gn_light_side(light, world);
     if (side == 0)
         return GN_CASTS_NOTHING;
-    if (light->kind == GN_SPOT) {
+    if (cuts && light->kind == GN_SPOT) {
         int beyond = 0; /* corners at or beyond the near plane */
         for (int i = 0; i < 3; i++)
             beyond += gn_beyond_near(light, world[i]) >= 0;
@@ -42,8 +42,7 @@ static gn_facing find_facing(const gn_light *light, int32_t world[3][3])
 
 gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t *facings, uint32_t *crossing)
 {
-    uint32_t number = 0;
-    *crossing = 0;
+    uint32_t number = 0, cut = 0;
     for (uint32_t o = 0; o < scene->object_count; o++) {
         const gn_object *object = &scene->objects[o];
         if (object->model && gn_check_model(object->model) != GN_OK)
@@ -53,18 +52,20 @@ gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t 
             uint32_t shift = 2 * (number & 3);
             if (gn_triangle_world(object, t, world) != GN_OK)
                 return GN_OUT_OF_RANGE;
-            uint32_t facing = find_facing(light, world);
-            *crossing += facing == GN_CROSSES_NEAR;
+            uint32_t facing = find_facing(light, world, crossing != 0);
+            cut += facing == GN_CROSSES_NEAR;
             facings[number >> 2] = (uint8_t)((facings[number >> 2] & ~(3u << shift)) | facing << shift);
         }
     }
+    if (crossing)
+        *crossing = cut;
     return GN_OK;
 }
 
 int32_t gn_edge_winding(const gn_mesh *mesh, const gn_mesh_edge *edge, const uint8_t *facings, uint32_t first_triangle,
                         uint32_t ends[2])
 {
-    half_edge_ends(mesh, edge->half[0], ends);
+    gn_half_edge_ends(mesh, edge->half[0], ends);
     int32_t winding = gn_facing_sign(gn_facing_of(facings, first_triangle + edge->half[0] / 3));
     if (edge->half[1] == GN_NO_HALF_EDGE)
         return winding;
@@ -97,13 +98,13 @@ static int joins(const gn_mesh *mesh, const gn_mesh_edge *edge)
 {
     uint32_t a[2], b[2], other = edge->half[1] & ~GN_SAME_DIRECTION;
     int same = (edge->half[1] & GN_SAME_DIRECTION) != 0;
-    half_edge_ends(mesh, edge->half[0], a);
-    half_edge_ends(mesh, other, b);
+    gn_half_edge_ends(mesh, edge->half[0], a);
+    gn_half_edge_ends(mesh, other, b);
     return same_place(mesh->vertices[a[0]], mesh->vertices[b[same ? 0 : 1]]) &&
            same_place(mesh->vertices[a[1]], mesh->vertices[b[same ? 1 : 0]]);
 }
 
-static gn_status check_edges(const gn_mesh *mesh)
+gn_status gn_check_edges(const gn_mesh *mesh)
 {
     if ((uintptr_t)mesh->edges % 4)
         return GN_BAD_MESH;
@@ -132,7 +133,7 @@ gn_status gn_list_silhouettes(const gn_scene *scene, const uint8_t *facings, uin
     for (uint32_t o = 0; o < scene->object_count; o++) {
         const gn_mesh *mesh = scene->objects[o].mesh;
         /* instances of one mesh mostly follow each other: check it once */
-        gn_status status = o && mesh == scene->objects[o - 1].mesh ? GN_OK : check_edges(mesh);
+        gn_status status = o && mesh == scene->objects[o - 1].mesh ? GN_OK : gn_check_edges(mesh);
         if (status != GN_OK)
             return status;
         for (uint32_t e = 0; e < mesh->edge_count; e++) {

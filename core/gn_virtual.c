@@ -7,72 +7,13 @@
  * With no reconstruction the four texels about the point vote and the one that holds it counts. Their votes take
  * the point to be nearer by the error of its depth, so that a level plane, where all five depths are one, is not
  * shadowed by its own rounding. */
-#include "gn_cascade.h"
-
-enum { OPEN = 1 };
-
-/* Whether four texels agree on a depth that was cut: lit, shadowed or open. */
-GN_INLINE uint32_t agree(const gn_depth *above, const gn_depth *below, uint32_t z)
-{
-    if (z <= above[0])
-        return z <= above[1] && z <= below[0] && z <= below[1] ? 0 : OPEN;
-    return z > above[1] && z > below[0] && z > below[1] ? GN_DARK : OPEN;
-}
+#include "gn_around.h"
 
 static void move_nearer(const gn_context *context, gn_worker *worker, gn_points *points)
 {
     (void)context, (void)worker;
     for (int32_t i = 0; i < points->count; i++)
         points->z[i] = points->z[i] > GN_POINT_ERROR ? points->z[i] - GN_POINT_ERROR : 0;
-}
-
-/* The greatest number of a footprint's first texel; rows are as long as the map is wide. */
-GN_INLINE uint32_t last_footprint(const gn_lookup *l)
-{
-    return (l->last_column + 1) * l->last_row - 2;
-}
-
-/* At the border: the four texels that are nearest lie to one side of a place in the outer half texel and cannot tell
- * that it is shadowed: a convex surface may be behind all of them. */
-static GN_NOINLINE uint32_t look_at_border(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t z)
-{
-    const gn_depth *above =
-        l->map + gn_first_of_two(v, l->last_row, l->bits) * l->stride + gn_first_of_two(u, l->last_column, l->bits);
-    return agree(above, above + l->stride, z) ? OPEN : 0;
-}
-
-/* Where no point should be: gn_index's texels, from a number on that has three more after it. */
-static GN_NOINLINE uint32_t look_beyond(const gn_lookup *l, uint32_t column, uint32_t row, uint32_t z)
-{
-    uint32_t width = l->last_column + 1, first = row * width + column, last = last_footprint(l);
-    gn_depth texel[4];
-    first = first > last ? last : first;
-    for (uint32_t k = 0; k < 4; k++)
-        texel[k] = l->map[gn_index(first + k % 2, k / 2, width, l->stride, 0xffffffffu)];
-    return agree(texel, texel + 2, z);
-}
-
-/* Whether the four texels at a place agree on a depth that was cut. */
-GN_INLINE uint32_t look(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t z)
-{
-    uint32_t column = u >> l->bits, row = v >> l->bits;
-    const gn_depth *above = l->map + row * l->stride + column;
-    if (GN_UNLIKELY(column >= l->last_column || row >= l->last_row))
-        return l->inside ? look_beyond(l, column, row, z) : look_at_border(l, u, v, z);
-    return agree(above, above + l->stride, z);
-}
-
-static void vote_around(const gn_lookup *lookup, gn_points *points)
-{
-    const gn_lookup l = *lookup;
-    for (int32_t i = 0; i < points->count; i++) {
-        uint32_t u = points->u[i], z = points->z[i], vote;
-        if (GN_UNLIKELY(u == GN_NOWHERE))
-            vote = gn_dark_nowhere(lookup, z);
-        else
-            vote = look(&l, u, points->v[i], gn_cut(z));
-        gn_vote_is(points, i, vote, GN_DARK);
-    }
 }
 
 /* The place of a pixel whose W was w. */
@@ -110,11 +51,11 @@ static void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint3
         if (GN_UNLIKELY(points->z[i] == GN_NO_INDEX)) {
             uint32_t column = (u.a + gn_w_product(q[i], u.b + (uint32_t)i * u.b_dx)) >> l.bits;
             uint32_t row = (v.a + gn_w_product(q[i], v.b + (uint32_t)i * v.b_dx)) >> l.bits;
-            vote = look_beyond(&l, column, row, points->v[i]);
+            vote = gn_look_beyond(&l, column, row, points->v[i]);
         } else {
-            vote = agree(texel, texel + l.stride, points->v[i]);
+            vote = gn_agree(texel, texel + l.stride, points->v[i]);
         }
-        if (vote == OPEN)
+        if (vote == GN_OPEN)
             points->open[points->open_count++] = (uint8_t)i;
         else
             q[i] = vote;
@@ -126,7 +67,7 @@ static void vote_by_footprints(const gn_lookup *lookup, gn_points *points, uint3
 static GN_NOINLINE void find_footprints(const gn_lookup *lookup, gn_points *points, const uint32_t *q)
 {
     gn_runner u = points->row[0], v = points->row[1];
-    const uint32_t bits = lookup->bits, width = lookup->stride, last = last_footprint(lookup);
+    const uint32_t bits = lookup->bits, width = lookup->stride, last = gn_last_footprint(lookup);
     uint32_t *out = points->z, *end = out + points->count;
     do {
         uint32_t w = *q++, column = (u.a + gn_w_product(w, u.b)) >> bits;
@@ -196,11 +137,11 @@ static void vote_spotlit(const gn_context *context, const gn_lookup *lookup, gn_
         uint32_t place_v = (uint32_t)(gn_multiply_u(top, height) >> 12) - GN_SPOT_HALF;
         uint32_t z = gn_spot_depth(light, nearness);
         z = z > GN_POINT_ERROR ? z - GN_POINT_ERROR : 0;
-        uint32_t vote = look(lookup, place_u, place_v, gn_cut(z));
+        uint32_t vote = gn_look(lookup, place_u, place_v, gn_cut(z));
         if (vote == GN_DARK)
             continue;
         q[i] = gn_over_distance(nearness, left, top, context->tan_squared);
-        if (vote == OPEN) {
+        if (vote == GN_OPEN) {
             points->u[i] = place_u;
             points->v[i] = place_v;
             points->z[i] = z;
@@ -210,15 +151,7 @@ static void vote_spotlit(const gn_context *context, const gn_lookup *lookup, gn_
     gn_end_block(points);
 }
 
-static uint32_t sample_nearest(const gn_lookup *l, const gn_points *points, int32_t i, const gn_wide_plane *plane)
-{
-    uint32_t column = gn_texel(points->u[i], l->last_column, l->bits);
-    uint32_t row = gn_texel(points->v[i], l->last_row, l->bits);
-    uint32_t z = gn_cut(gn_saturate(gn_wide_depth(plane, (int32_t)column, (int32_t)row)));
-    return z <= l->map[row * l->stride + column] ? 0 : GN_DARK;
-}
-
-static const gn_reconstruction nearest = {gn_cascade_row, vote_around, sample_nearest, 0, GN_DARK, 4, 1};
+static const gn_reconstruction nearest = {gn_cascade_row, gn_vote_around, gn_sample_nearest, 0, GN_DARK, 4, 1, 0, 0};
 
 /* The shadowed shares of a point, by virtual samples. Where there is no plane, its own depth is level. */
 static uint32_t resample(const gn_context *context, gn_worker *worker, const gn_lookup *lookup, gn_points *points,

@@ -119,7 +119,7 @@ typedef struct gn_mesh {
     uint32_t triangle_count;
     uint8_t index_size;        /* 2 or 4 bytes */
     uint8_t closed;            /* 0 or 1 */
-    const gn_mesh_edge *edges; /* for shadow volumes, made by `gnomon pack --edges`; else 0 */
+    const gn_mesh_edge *edges; /* for shadow volumes and silhouette maps, made by `gnomon pack --edges`; else 0 */
     uint32_t edge_count;
 } gn_mesh;
 
@@ -252,6 +252,12 @@ extern const gn_reconstruction gn_bilinear;   /* the four texels about the point
 extern const gn_reconstruction gn_jitter_4x4; /* 16 texels, one from each cell of 4 x 4, picked by a fixed matrix */
 extern const gn_reconstruction gn_box_3x3, gn_box_5x5, gn_box_7x7; /* the texels about the point's own, alike */
 
+/* A silhouette map (Sen, Cammarano & Hanrahan 2003): hard shadows whose borders follow the silhouettes of the meshes
+ * through the texels, and not the texels' sides. The light pass draws the silhouette edges of all meshes into a map of
+ * one byte a texel. Meshes need edges; of one without (a triangle soup) every edge of every triangle is drawn, which
+ * serves single triangles and is wrong where they join. docs/shadow-test.md. */
+extern const gn_reconstruction gn_silhouettes;
+
 typedef enum gn_bias_unit {
     GN_BIAS_WORLD = 0, /* whole world units along the light (spot: converted at w = sqrt(near far)) */
     GN_BIAS_TEXELS,    /* Q16.16: the depth of so many texels at 45 degrees */
@@ -293,6 +299,7 @@ gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_si
 typedef struct gn_plan {
     size_t bytes;                 /* of the whole block: the maximum of the two passes */
     size_t map_bytes;             /* of it: the shadow map, which stays between the passes */
+    size_t silhouette_bytes;      /* of it: the silhouette map, which stays as well; 0 without */
     size_t light_bytes;           /* needed during the light pass, map included */
     size_t camera_bytes;          /* needed during the camera pass, map included */
     uint32_t triangles, vertices; /* of all objects; a mesh used twice counts twice */
@@ -308,7 +315,8 @@ typedef struct gn_context gn_context;
 
 /* Say what the scene needs, and check every mesh (indices, ranges); nothing is written but *plan. GN_UNSUPPORTED:
  * settings that make no sense together, volumes and a mesh without edges, or a receiver or
- * a reconstruction and a map that is less than 2 texels wide or high. */
+ * a reconstruction and a map that is less than 2 texels wide or high. GN_BAD_MESH: also, with gn_silhouettes, edges that
+ * do not exist, join nothing, or are too few or too many. */
 gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings);
 
 /* Take the block; the scene (not the settings) must outlive the context. Nothing outside the block is ever written.
@@ -334,6 +342,12 @@ gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker
  * open texels in the lowest bit. */
 const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t region, uint32_t worker,
                          uint32_t *first_row, uint32_t *rows, uint32_t *stride);
+
+/* After the light pass with gn_silhouettes: a byte a cell. Cell (column, row), at row * *stride + column, lies between
+ * the centres of texels (column, row) and (column + 1, row + 1). Low 4 bits: x, high 4 bits: y of a point of the
+ * silhouette that passes through it, in 1/16 texel from the cell's upper left corner; 0x88, the centre, where there is
+ * none. Cells that are not between four texels (the last column and the last row) hold 0x88. 0 without. */
+const uint8_t *gn_silhouette_map(const gn_context *context, uint32_t *stride);
 
 /* ---- camera pass ----------------------------------------------------------------------------------------------- */
 
@@ -388,7 +402,9 @@ typedef struct gn_statistics {
     uint64_t pixels_virtual;               /* decided by virtual samples */
     uint64_t pixels_fractional;            /* partly lit, by whatever samples */
     uint64_t texels_read, virtual_samples; /* depths compared in all; of them with virtual samples */
-    uint64_t silhouette_edges;             /* of the latest gn_volumes_light */
+    uint64_t pixels_silhouette;  /* decided by the silhouette map: P of Sen et al. is this over pixels_shaded */
+    uint64_t silhouette_edges;   /* of the latest light pass, or gn_volumes_light */
+    uint64_t silhouette_texels;  /* cells of the silhouette map that hold a point, summed over the light passes */
     uint64_t volume_faces;                 /* set up in the camera pass, each region counted */
     uint64_t volume_fragments; /* covered by them; over camera_fragments: the overdraw factor O of Sen et al. */
     uint64_t map_bytes;
