@@ -137,6 +137,7 @@ static void draw_cell(const canvas *c, const gn_segment *segment, int32_t column
         return;
     int32_t at = row * c->width + column;
     gn_depth z = (gn_depth)gn_cut(2 * p.z);
+    z = z == GN_FARTHEST ? (gn_depth)(z - 1) : z;
     uint8_t point = (uint8_t)(round_offset(p.y) << 4 | round_offset(p.x));
     if (z < c->nearest[at] || (z == c->nearest[at] && point < c->map[at])) {
         c->nearest[at] = z;
@@ -218,8 +219,15 @@ static void draw_chosen(const gn_context *context, const canvas *c)
             continue;
         }
         for (uint32_t e = 0; e < mesh->edge_count; e++, number++) {
-            uint32_t ends[2];
-            if (!(context->drawn->chosen[number >> 5] >> (number & 31) & 1))
+            uint32_t ends[2], word = context->drawn->chosen[number >> 5];
+            if (word == 0) { /* usually: on to the next word's first edge, or the next mesh's */
+                uint32_t rest = 31 - (number & 31), left = mesh->edge_count - 1 - e;
+                rest = rest < left ? rest : left;
+                e += rest;
+                number += rest;
+                continue;
+            }
+            if (!(word >> (number & 31) & 1))
                 continue;
             gn_half_edge_ends(mesh, mesh->edges[e].half[0], ends);
             draw_edge(context, c, o, ends);

@@ -1,4 +1,5 @@
-/* Which triangles of a mesh share an edge: the pairs of half-edges that shadow volumes walk along (gn_mesh_edge).
+/* Which triangles of a mesh share an edge: the pairs of half-edges that shadow volumes and silhouette maps walk along
+ * (gn_mesh_edge).
  *
  * Two half-edges lie on one edge if their ends stand at the same two places after quantisation, whatever the numbers of
  * their vertices. On each edge, half-edges taken in the order of their numbers:
@@ -8,7 +9,8 @@
  * - a last one without a partner is open (GN_NO_HALF_EDGE).
  *
  * So a mesh that is closed has pairs of opposite directions alone, also where more than two triangles meet at an edge.
- * Which of those triangles belong together in space is not asked: volumes count the same with any such pairing.
+ * Which of those triangles belong together in space is not asked: volumes count the same with any such pairing;
+ * whether a silhouette map has that edge may hang on it.
  *
  * Triangles with two corners at one place have no part in this: their half-edges are in no pair. Edges are in the order
  * of half[0], which is less than the number in half[1].

@@ -47,6 +47,7 @@ static const choice reconstructions[] = {
     {"pcf3", "&gn_box_3x3", &gn_box_3x3},
     {"pcf5", "&gn_box_5x5", &gn_box_5x5},
     {"pcf7", "&gn_box_7x7", &gn_box_7x7},
+    {"silhouette", "&gn_silhouettes", &gn_silhouettes},
 };
 
 const choices choices_shadow = TABLE(shadows), choices_cull = TABLE(culls), choices_layers = TABLE(layers),
@@ -65,4 +66,14 @@ int choices_number(const choices *of, const void *object)
 int choices_use_slope(const gn_settings *settings)
 {
     return settings->surface == GN_SLOPE || settings->receiver == &gn_plane_bias;
+}
+
+int choices_have_silhouettes(const gn_settings *settings)
+{
+    return settings->shadow == GN_SHADOW_MAP && settings->reconstruction == &gn_silhouettes;
+}
+
+int choices_use_edges(const gn_settings *settings)
+{
+    return settings->shadow == GN_SHADOW_VOLUMES || choices_have_silhouettes(settings);
 }

@@ -31,4 +31,10 @@ int choices_number(const choices *of, const void *object);
 /* Is settings->slope of use: for the virtual surface, for the receiver, or for both? */
 int choices_use_slope(const gn_settings *settings);
 
+/* Does the light pass make a silhouette map? Shadow volumes, which have no map at all, say nothing of one. */
+int choices_have_silhouettes(const gn_settings *settings);
+
+/* Are meshes to have their edges: for shadow volumes, or for silhouettes? */
+int choices_use_edges(const gn_settings *settings);
+
 #endif

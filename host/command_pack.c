@@ -1,4 +1,5 @@
 /* gnomon pack: the quantised scene as a .gno file or as a C header. */
+#include "choices.h"
 #include "commands.h"
 #include "file.h"
 #include "pack.h"
@@ -18,8 +19,8 @@ static const option table[OPTION_COUNT] = {
      "FILE.gno: one block of bytes (layout: host/pack.h);\n"
      "NAME.h: C arrays with NAME_scene, NAME_camera, NAME_light, NAME_settings"},
     {"--edges", 0,
-     "with the edges that shadow volumes need (8 bytes each, about 12 a triangle);\n"
-     "always with --method volumes, else left out"},
+     "with the edges that shadow volumes and silhouettes need (8 bytes each, about 12 a\n"
+     "triangle); always with --method volumes and with silhouettes, else left out"},
     {"--verbose", 0, "notices about meshes on standard error"},
     {"--help", 0, "this text"},
 };
@@ -36,7 +37,7 @@ static void help(void)
 /* What was asked for alone: edges that a .gno file brings take flash where nothing reads them. */
 static int choose_edges(packed_scene *packed, const char *const values[], problem *why)
 {
-    if (values[EDGES] || packed->settings.shadow == GN_SHADOW_VOLUMES)
+    if (values[EDGES] || choices_use_edges(&packed->settings))
         return packed_make_edges(packed, values[VERBOSE] != 0, why);
     packed_drop_edges(packed);
     return 0;

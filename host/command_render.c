@@ -1,4 +1,5 @@
 /* gnomon render: a scene in, a shadowed image, masks, depth layers, hashes and statistics out. */
+#include "choices.h"
 #include "commands.h"
 #include "file.h"
 #include "frame.h"
@@ -6,6 +7,7 @@
 #include "json.h"
 #include "render_options.h"
 #include "settings_report.h"
+#include "silhouette_picture.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -22,6 +24,7 @@ enum {
     OUTPUT_DEPTH,
     OUTPUT_SECOND_DEPTH,
     OUTPUT_MAP,
+    OUTPUT_SILHOUETTES,
     OUTPUT_STATS,
     OUTPUT_HASH,
     WORK,
@@ -38,8 +41,12 @@ static const option table[OPTION_COUNT] = {
     {"--depth", "FILE", "nearest depths as seen by the light, 16-bit grey; .pfm, .exr: 0 near to 1 far"},
     {"--second-depth", "FILE", "second nearest depths, where the method keeps two layers"},
     {"--map-image", "FILE", "the depths that pixels are compared with, made of the layers"},
+    {"--silhouettes", "FILE",
+     "the silhouette map over the depths that pixels are compared with (near: bright), 1\n"
+     "to 16 pixels a texel: red points, joined by orange lines from 8 pixels on. Of\n"
+     "--reconstruct silhouette alone"},
     {"--stats", "FILE.json", "sizes, memory, counts and times"},
-    {"--hash", 0, "print a hash for each stage: layers, map, mask, colour"},
+    {"--hash", 0, "print a hash for each stage: layers, map, silhouettes where there are, mask, colour"},
     WORK_OPTIONS,
     {"--verbose", 0, "say on standard error what was read, planned and tested"},
     {"--help", 0, "this text"},
@@ -68,7 +75,8 @@ static void help(void)
 
 static int wants_layers(const job *j)
 {
-    return j->values[OUTPUT_DEPTH] || j->values[OUTPUT_SECOND_DEPTH] || j->values[OUTPUT_MAP] || j->values[OUTPUT_HASH];
+    return j->values[OUTPUT_DEPTH] || j->values[OUTPUT_SECOND_DEPTH] || j->values[OUTPUT_MAP] ||
+           j->values[OUTPUT_SILHOUETTES] || j->values[OUTPUT_HASH];
 }
 
 /* Depths go to files of floats as they are, to others as 16 bits. */
@@ -94,6 +102,8 @@ static int check_outputs(job *j)
         if (path && image_can_write(path, 1, depth_sample(path), &j->why))
             return -1;
     }
+    if (values[OUTPUT_SILHOUETTES] && image_can_write(values[OUTPUT_SILHOUETTES], 3, IMAGE_U8, &j->why))
+        return -1;
     if (values[OUTPUT_STATS] && file_can_write(values[OUTPUT_STATS], &j->why))
         return -1;
     return file_check_distinct(values + OUTPUT_IMAGE, OUTPUT_STATS - OUTPUT_IMAGE + 1, &j->scene_path, 1, &j->why);
@@ -113,13 +123,28 @@ static void say_what_was_read(const job *j)
     }
     fputs("\n", stderr);
     settings_report_text(stderr, &j->settings, plan, p->scale);
-    fprintf(stderr, "; %zu bytes, of them %zu for the map\n", plan->bytes, plan->map_bytes);
+    fprintf(stderr, "; %zu bytes, of them %zu for the map", plan->bytes, plan->map_bytes);
+    if (plan->silhouette_bytes)
+        fprintf(stderr, ", %zu for its silhouettes", plan->silhouette_bytes);
+    fputs("\n", stderr);
 }
 
 /* Does the test of a pixel run in the stages that the counts tell apart? */
 static int has_stages(const gn_settings *s)
 {
     return s->shadow == GN_SHADOW_MAP && (s->receiver || s->reconstruction);
+}
+
+/* P of Sen et al. 2003, section 4 and table 1. */
+static double share_of_silhouettes(const gn_statistics *s)
+{
+    return s->pixels_shaded ? (double)s->pixels_silhouette / (double)s->pixels_shaded : 0;
+}
+
+/* O of the same. */
+static double overdraw(const gn_statistics *s)
+{
+    return s->camera_fragments ? (double)s->volume_fragments / (double)s->camera_fragments : 0;
 }
 
 static void say_what_was_tested(const frame *f)
@@ -134,6 +159,11 @@ static void say_what_was_tested(const frame *f)
                 s.pixels_outside, s.pixels_agreed, s.pixels_virtual, s.pixels_fractional, s.texels_read,
                 s.virtual_samples);
     fputs("\n", stderr);
+    if (choices_have_silhouettes(&f->settings))
+        fprintf(stderr,
+                "%" PRIu64 " silhouette edges, %" PRIu64 " texels with a point of one; %" PRIu64
+                " pixels decided by them, %.3g %% of those shaded\n",
+                s.silhouette_edges, s.silhouette_texels, s.pixels_silhouette, 100 * share_of_silhouettes(&s));
 }
 
 /* ---- outputs --------------------------------------------------------------------------------------------------- */
@@ -152,10 +182,45 @@ static int write_depths(job *j, const char *path, const gn_depth *depths)
     return result;
 }
 
+static int write_silhouettes(job *j, const char *path)
+{
+    uint32_t stride;
+    const uint8_t *map = gn_silhouette_map(j->frame.context, &stride);
+    image im = silhouette_picture(j->frame.map, j->settings.map_width, j->settings.map_height, map, stride);
+    int result = image_write(&im, path, &j->why);
+    image_free(&im);
+    return result;
+}
+
 static int write_pixels(job *j, const char *path, uint8_t *pixels, uint32_t channels)
 {
     image im = {j->settings.width, j->settings.height, channels, IMAGE_U8, pixels};
     return image_write(&im, path, &j->why);
+}
+
+/* Bytes that the test of a pixel reads, by the model of Sen et al. 2003, section 4, and over those of a shadow map.
+ * Near a silhouette 3 points are read; a point of theirs has 8 bytes. A fragment of a shadow volume reads a depth and a
+ * stencil value, and writes half of the latter. */
+static void write_bandwidth(json *j, const frame *f, const gn_statistics *s)
+{
+    enum { DEPTH = 4, POINTS = 3, POINT = 8 };
+    int silhouettes = choices_have_silhouettes(&f->settings);
+    if (!silhouettes && f->settings.shadow != GN_SHADOW_VOLUMES)
+        return;
+    double own_depth = sizeof(gn_depth), points = POINTS * share_of_silhouettes(s), volumes = 5.5 * overdraw(s);
+    json_open(j, "bandwidth");
+    json_integer(j, "shadow_map_bytes_a_pixel", DEPTH);
+    if (silhouettes) {
+        json_number(j, "silhouette_map_bytes_a_pixel", DEPTH + POINT * points);
+        json_number(j, "ratio", (DEPTH + POINT * points) / DEPTH);
+        json_integer(j, "own_shadow_map_bytes_a_pixel", sizeof(gn_depth));
+        json_number(j, "own_silhouette_map_bytes_a_pixel", own_depth + points);
+        json_number(j, "own_ratio", (own_depth + points) / own_depth);
+    } else {
+        json_number(j, "shadow_volumes_bytes_a_pixel", volumes);
+        json_number(j, "ratio", volumes / DEPTH);
+    }
+    json_close(j);
 }
 
 static void write_statistics(json *j, const frame *f)
@@ -177,13 +242,20 @@ static void write_statistics(json *j, const frame *f)
         json_integer(j, "texels_read", (int64_t)s.texels_read);
         json_integer(j, "virtual_samples", (int64_t)s.virtual_samples);
     }
+    if (choices_have_silhouettes(&f->settings)) {
+        json_integer(j, "silhouette_edges", (int64_t)s.silhouette_edges);
+        json_integer(j, "silhouette_texels", (int64_t)s.silhouette_texels);
+        json_integer(j, "pixels_silhouette", (int64_t)s.pixels_silhouette);
+        json_number(j, "silhouette_percent", 100 * share_of_silhouettes(&s));
+    }
     if (f->settings.shadow == GN_SHADOW_VOLUMES) {
         json_integer(j, "silhouette_edges", (int64_t)s.silhouette_edges);
         json_integer(j, "volume_faces", (int64_t)s.volume_faces);
         json_integer(j, "volume_fragments", (int64_t)s.volume_fragments);
-        json_number(j, "overdraw", s.camera_fragments ? (double)s.volume_fragments / (double)s.camera_fragments : 0);
+        json_number(j, "overdraw", overdraw(&s));
     }
     json_close(j);
+    write_bandwidth(j, f, &s);
 }
 
 static void write_plan(json *j, const gn_settings *s, const gn_plan *plan, int scale)
@@ -201,6 +273,8 @@ static void write_plan(json *j, const gn_settings *s, const gn_plan *plan, int s
     json_open(j, "bytes");
     json_integer(j, "all", (int64_t)plan->bytes);
     json_integer(j, "map", (int64_t)plan->map_bytes);
+    if (plan->silhouette_bytes)
+        json_integer(j, "silhouettes", (int64_t)plan->silhouette_bytes);
     json_integer(j, "light_pass", (int64_t)plan->light_bytes);
     json_integer(j, "camera_pass", (int64_t)plan->camera_bytes);
     json_close(j);
@@ -211,6 +285,8 @@ static void write_hashes(json *j, const frame *f)
     json_open(j, "hashes");
     json_hash(j, "layers", frame_hash_layers(f));
     json_hash(j, "map", frame_hash_map(f));
+    if (choices_have_silhouettes(&f->settings))
+        json_hash(j, "silhouettes", frame_hash_silhouettes(f));
     json_hash(j, "mask", frame_hash_mask(f));
     json_hash(j, "colour", frame_hash_colour(f));
     json_close(j);
@@ -247,6 +323,8 @@ static void print_hashes(const frame *f)
 {
     printf("layers %016" PRIx64 "\n", frame_hash_layers(f));
     printf("map %016" PRIx64 "\n", frame_hash_map(f));
+    if (choices_have_silhouettes(&f->settings))
+        printf("silhouettes %016" PRIx64 "\n", frame_hash_silhouettes(f));
     printf("mask %016" PRIx64 "\n", frame_hash_mask(f));
     printf("colour %016" PRIx64 "\n", frame_hash_colour(f));
 }
@@ -260,6 +338,8 @@ static int write_outputs(job *j)
     if (values[OUTPUT_SECOND_DEPTH] && write_depths(j, values[OUTPUT_SECOND_DEPTH], f->layers[1]))
         return -1;
     if (values[OUTPUT_MAP] && write_depths(j, values[OUTPUT_MAP], f->map))
+        return -1;
+    if (values[OUTPUT_SILHOUETTES] && write_silhouettes(j, values[OUTPUT_SILHOUETTES]))
         return -1;
     if (values[OUTPUT_MASK] && write_pixels(j, values[OUTPUT_MASK], f->mask, 1))
         return -1;
@@ -289,6 +369,10 @@ static int render(job *j)
     if (j->settings.shadow == GN_SHADOW_VOLUMES &&
         (j->values[OUTPUT_DEPTH] || j->values[OUTPUT_SECOND_DEPTH] || j->values[OUTPUT_MAP]))
         return problem_of_usage(&j->why, "shadow volumes have no map to write; expected a method with a shadow map");
+    if (j->values[OUTPUT_SILHOUETTES] && !choices_have_silhouettes(&j->settings))
+        return problem_of_usage(&j->why,
+                                "--silhouettes, but no silhouette map is made; expected --method silhouette, or "
+                                "--reconstruct silhouette with another method that has a shadow map");
     if (j->values[OUTPUT_SECOND_DEPTH] && j->frame.layer_count < 2)
         return problem_of_usage(&j->why,
                                 "--second-depth, but the method keeps one layer; expected a method with two layers");

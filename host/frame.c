@@ -258,6 +258,17 @@ stage_hash frame_hash_map(const frame *f)
     return hash_depths(f, stage_hash_init(), f->map);
 }
 
+stage_hash frame_hash_silhouettes(const frame *f)
+{
+    stage_hash hash = stage_hash_init();
+    uint32_t stride;
+    const uint8_t *map = gn_silhouette_map(f->context, &stride);
+    for (size_t row = 0; map && row + 1 < f->settings.map_height; row++)
+        for (size_t column = 0; column + 1 < f->settings.map_width; column++)
+            hash = stage_hash_u8(hash, map[row * stride + column]);
+    return hash;
+}
+
 stage_hash frame_hash_mask(const frame *f)
 {
     return hash_bytes(f->mask, (size_t)f->settings.width * f->settings.height);

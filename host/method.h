@@ -5,7 +5,7 @@
 #include "packed.h"
 
 /* The first ones are virtual surfaces, in the order of gn_surface. */
-enum { METHOD_ADAPTIVE = GN_SLOPE + 1, METHOD_AUTO, METHOD_VOLUMES, METHOD_COUNT };
+enum { METHOD_ADAPTIVE = GN_SLOPE + 1, METHOD_SILHOUETTE, METHOD_AUTO, METHOD_VOLUMES, METHOD_COUNT };
 
 extern const char *const method_words[METHOD_COUNT];
 

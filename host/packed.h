@@ -29,8 +29,8 @@ int packed_read(packed_scene *packed, const char *path, int verbose, problem *wh
 /* The same, but a point light is taken. */
 int packed_read_any_light(packed_scene *packed, const char *path, int verbose, problem *why);
 
-/* Make the edges of all meshes that have none, for shadow volumes (adjacency.h). verbose: notices about open edges and
- * the like on standard error. 0, or -1 and the problem: a mesh of more than 715 million triangles. */
+/* Make the edges of all meshes that have none, for shadow volumes and silhouettes (adjacency.h). verbose: notices about
+ * open edges and the like on standard error. 0, or -1 and the problem: a mesh of more than 715 million triangles. */
 int packed_make_edges(packed_scene *packed, int verbose, problem *why);
 
 /* Forget the edges of all meshes. */

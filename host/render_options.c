@@ -7,35 +7,28 @@
 
 #include <string.h>
 
-/* The place of the word among those of an option. What is only planned is told from what nobody knows: by its start,
- * as parameterisations combine. -1 and the problem if it is none. */
-static int read_word(const char *name, const char *value, const char *const words[], int count,
-                     const char *const planned[], problem *why)
-{
-    int place = option_choice(name, value, words, count, why);
-    for (; place < 0 && planned && *planned; planned++)
-        if (strncmp(value, *planned, strlen(*planned)) == 0)
-            return problem_of_usage(why, "%s %s is not built yet; expected one that --help names", name, value);
-    return place;
-}
-
 /* Change *number to that of the value's choice, if there is a value. 0, or -1 and the problem. */
-static int read_choice(const char *name, const char *value, const choices *of, const char *const planned[], int *number,
-                       problem *why)
+static int read_choice(const char *name, const char *value, const choices *of, int *number, problem *why)
 {
     const char *words[CHOICES_MOST];
     for (int i = 0; i < of->count; i++)
         words[i] = of->all[i].word;
     if (value)
-        *number = read_word(name, value, words, of->count, planned, why);
+        *number = option_choice(name, value, words, of->count, why);
     return *number < 0 ? -1 : 0;
 }
 
+/* What is only planned is told from what nobody knows: by its start, as parameterisations combine. */
 static int read_parameterisation(const char *value, problem *why)
 {
     static const char *const built[] = {"uniform"};
-    static const char *const planned[] = {"dv", "msf", "rectilinear", "nonorthogonal", 0};
-    return value && read_word("--parameterise", value, built, 1, planned, why) < 0 ? -1 : 0;
+    static const char *const planned[] = {"dv", "msf", "rectilinear", "nonorthogonal"};
+    if (!value || option_choice("--parameterise", value, built, 1, why) == 0)
+        return 0;
+    for (size_t i = 0; i < sizeof planned / sizeof *planned; i++)
+        if (strncmp(value, planned[i], strlen(planned[i])) == 0)
+            return problem_of_usage(why, "--parameterise %s is not built yet; expected one that --help names", value);
+    return -1;
 }
 
 static int refuse_for_volumes(const char *name, problem *why)
@@ -46,16 +39,15 @@ static int refuse_for_volumes(const char *name, problem *why)
 /* A virtual surface by its own name stands for the method of that name. */
 static int read_method(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why)
 {
-    static const char *const planned[] = {"silhouette", 0};
     int method = METHOD_AUTO, surface = GN_CONSTANT;
     if (values[RENDER_METHOD])
-        method = read_word("--method", values[RENDER_METHOD], method_words, METHOD_COUNT, planned, why);
+        method = option_choice("--method", values[RENDER_METHOD], method_words, METHOD_COUNT, why);
     if (method < 0)
         return -1;
     if (values[RENDER_SURFACE]) {
         if (!values[RENDER_METHOD] && settings->shadow == GN_SHADOW_VOLUMES)
             return refuse_for_volumes("--virtual-surface", why);
-        if (read_choice("--virtual-surface", values[RENDER_SURFACE], &choices_surface, 0, &surface, why))
+        if (read_choice("--virtual-surface", values[RENDER_SURFACE], &choices_surface, &surface, why))
             return -1;
         if (values[RENDER_METHOD] && surface != method_surface(method))
             return problem_of_usage(why, "--virtual-surface %s contradicts --method %s; expected one of the two",
@@ -71,8 +63,8 @@ static int read_method(gn_settings *settings, const packed_scene *packed, const 
 static int read_light_pass(gn_settings *settings, const char *const values[], problem *why)
 {
     int cull = settings->cull, layers = settings->layers;
-    if (read_choice("--cull", values[RENDER_CULL], &choices_cull, 0, &cull, why) ||
-        read_choice("--layers", values[RENDER_LAYERS], &choices_layers, 0, &layers, why))
+    if (read_choice("--cull", values[RENDER_CULL], &choices_cull, &cull, why) ||
+        read_choice("--layers", values[RENDER_LAYERS], &choices_layers, &layers, why))
         return -1;
     settings->cull = (uint8_t)cull;
     settings->layers = (uint8_t)layers;
@@ -92,12 +84,10 @@ static void use_receiver(gn_settings *settings, const gn_receiver *receiver)
 
 static int read_camera_pass(gn_settings *settings, const char *const values[], problem *why)
 {
-    static const char *const planned[] = {"silhouette", 0};
     int receiver = choices_number(&choices_receiver, settings->receiver);
     int reconstruction = choices_number(&choices_reconstruction, settings->reconstruction);
-    if (read_choice("--receiver", values[RENDER_RECEIVER], &choices_receiver, 0, &receiver, why) ||
-        read_choice("--reconstruct", values[RENDER_RECONSTRUCT], &choices_reconstruction, planned, &reconstruction,
-                    why))
+    if (read_choice("--receiver", values[RENDER_RECEIVER], &choices_receiver, &receiver, why) ||
+        read_choice("--reconstruct", values[RENDER_RECONSTRUCT], &choices_reconstruction, &reconstruction, why))
         return -1;
     use_receiver(settings, choices_receiver.all[receiver].object);
     settings->reconstruction = choices_reconstruction.all[reconstruction].object;
@@ -199,7 +189,7 @@ int render_options_read(gn_settings *settings, packed_scene *packed, const char 
     int volumes = settings->shadow == GN_SHADOW_VOLUMES;
     if ((volumes && check_volumes(values, why)) || read_light_pass(settings, values, why) ||
         read_camera_pass(settings, values, why) || read_amounts(settings, packed, values, why) ||
-        read_sizes(settings, values, why) || (volumes && packed_make_edges(packed, 0, why)))
+        read_sizes(settings, values, why) || (choices_use_edges(settings) && packed_make_edges(packed, 0, why)))
         return -1;
     return check_combination(settings, packed, why);
 }

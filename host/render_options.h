@@ -31,11 +31,12 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
 #define RENDER_OPTIONS \
     {0, 0, "How shadows are made:"}, \
     {"--method", "NAME", \
-     "constant, midpoint, dual, second-depth, mixed, slope, adaptive or auto: a\n" \
-     "preset of the options below. adaptive: constant, bias 0.0001r, receiver\n" \
-     "virtual. auto (the default): second-depth where every mesh is closed, else\n" \
-     "mixed; receiver virtual. volumes: shadow volumes, right at every pixel but\n" \
-     "ties, and without a map: none of the options below"}, \
+     "constant, midpoint, dual, second-depth, mixed, slope, adaptive, silhouette\n" \
+     "or auto: a preset of the options below. adaptive: constant, bias 0.0001r,\n" \
+     "receiver virtual. silhouette: mixed, receiver virtual, reconstruct\n" \
+     "silhouette. auto (the default): second-depth where every mesh is closed,\n" \
+     "else mixed; receiver virtual. volumes: shadow volumes, right at every pixel\n" \
+     "but ties, and without a map: none of the options below"}, \
     {"--parameterise", "NAME", "uniform: the map covers the light's frustum evenly"}, \
     {"--cull", "WHICH", \
      "auto, none, back or front faces of closed meshes in the light pass.\n" \
@@ -66,7 +67,8 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
     {"--reconstruct", "NAME", \
      "nearest (the default): one texel decides; fractions of light: bilinear, of\n" \
      "the 4 texels about the point; jitter4x4, of 16, one of each cell; pcf3,\n" \
-     "pcf5, pcf7, of so many texels squared"}, \
+     "pcf5, pcf7, of so many texels squared. silhouette: hard borders along the\n" \
+     "meshes' silhouettes through the texels, from a second map of a byte a texel"}, \
     {0, 0, "Sizes (the scene file has defaults):"}, \
     {"--map", "N", "the shadow map's size: N or WxH, each from 1 to 4096"}, \
     {"--size", "WxH", "the image's size, each from 1 to 4096"}
@@ -80,7 +82,7 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
 /* clang-format on */
 
 /* Settings of a scene and a command line: settings->mask, ->workers and the regions are left as they are by default.
- * Shadow volumes: gives meshes the edges that they lack. 0, or -1 and the problem. */
+ * Shadow volumes and silhouettes: gives meshes the edges that they lack. 0, or -1 and the problem. */
 int render_options_read(gn_settings *settings, packed_scene *packed, const char *const values[], problem *why);
 
 /* Workers and regions; values from WORK_HEAD on. 0, or -1 and the problem. */

@@ -18,7 +18,7 @@ hash_of() {
     "$gnomon" render "$@" --hash
 }
 
-# same_hashes A B: both are hashes of four stages, and equal.
+# same_hashes A B: both are hashes of four stages (of five with silhouettes), and equal.
 same_hashes() {
     printf '%s\n' "$1" "$2"
     [ "$(printf '%s\n' "$1" | grep -cE '^(layers|map|mask|colour) [0-9a-f]{16}$')" = 4 ] && [ "$1" = "$2" ]
@@ -108,6 +108,9 @@ second-depth --receiver virtual --reconstruct bilinear
 mixed --receiver virtual-always --reconstruct pcf5
 dual --receiver point --reconstruct pcf3
 mixed --receiver virtual --reconstruct pcf7
+silhouette
+silhouette --receiver point
+constant --receiver virtual-always --reconstruct silhouette
 END
 
 # Methods are presets; what is named beside them wins.
@@ -128,6 +131,7 @@ done <<'END'
 --method mixed|mixed two none 2 texels - point nearest
 --method slope|slope first none 0.0005 range 2 point nearest
 --method adaptive|constant first none 0.0001 range - virtual nearest
+--method silhouette|mixed two none 2 texels - virtual silhouette
 --method auto|second first front 0 world - virtual nearest
 --method adaptive --virtual-surface constant|constant first none 0.0001 range - virtual nearest
 --method adaptive --receiver point --bias 1t|constant first none 1 texels - point nearest
@@ -145,6 +149,11 @@ done <<'END'
 --reconstruct pcf3|second first front 0 world - virtual pcf3
 --reconstruct pcf5 --receiver point|second first front 0 world - point pcf5
 --reconstruct pcf7 --virtual-surface mixed|mixed two none 2 texels - point pcf7
+--reconstruct silhouette|second first front 0 world - virtual silhouette
+--method dual --reconstruct silhouette|dual two back 2 texels - point silhouette
+--method silhouette --virtual-surface mixed --bias 1t|mixed two none 1 texels - virtual silhouette
+--method silhouette --receiver plane-bias --slope 2|mixed two none 2 texels 2 plane-bias silhouette
+--method silhouette --reconstruct nearest|mixed two none 2 texels - virtual nearest
 --virtual-surface slope|slope first none 0.0005 range 2 point nearest
 --virtual-surface constant --bias 0.02r --layers first --cull none|constant first none 0.02 range - point nearest
 --virtual-surface constant --bias 3t --layers first --cull none|constant first none 3 texels - point nearest
@@ -217,6 +226,64 @@ check "bench_names_receiver_and_reconstruction" sh -c "'$gnomon' bench '$scene' 
     grep -q 'bias 0.0001r, receiver virtual, reconstruction bilinear, region' '$folder/printed' &&
     grep -q '\"receiver\": \"virtual\"' '$folder/bench.json' && grep -q '\"reconstruction\": \"bilinear\"' '$folder/bench.json'"
 
+# Silhouette maps. Each figure of the statistics that is made of others is worked out again.
+# agrees NAME FORMULA FILE: the statistic is what awk makes of the formula, in which v["name"] is another statistic.
+agrees() {
+    awk -v name="$1" '{ gsub(/[",:]/, " ") } NF >= 2 { v[$1] = $2 } END {
+        got = v[name]
+        wanted = '"$2"'
+        if (got == "" || got - wanted > 1e-6 || wanted - got > 1e-6) { print name, got, "expected", wanted; exit 1 }
+    }' "$3"
+}
+check "a_silhouette_map_is_drawn" status 0 render "$scene" --method silhouette --size 100x75 --map 128x96 \
+    --silhouettes "$folder/sil.ppm" --stats "$folder/sil.json" --mask "$folder/sil.pgm"
+check "with_16_pixels_a_texel" sh -c "head -n 2 '$folder/sil.ppm' | tail -n 1 | grep -qx '2048 1536'"
+tail -c $((3 * 2048 * 1536)) "$folder/sil.ppm" | od -An -v -tu1 -w3 | sort | uniq -c >"$folder/colours"
+check "in_grey_red_and_orange" awk '{ grey = $2 == $3 && $3 == $4; red = $2 == 255 && $3 == 0; orange = $2 == 255 && $3 == 128 && $4 == 0
+    if (grey) greys++; else if (red || orange) { if (red) reds = $1; else oranges = $1 } else exit 1 }
+    END { exit !(greys > 9 && reds > 900 && oranges > 900) }' "$folder/colours"
+check "a_point_is_no_more_than_nine_red_pixels" test "$(awk '$2 == 255 && $3 == 0 { print $1 }' "$folder/colours")" -le \
+    $((9 * $(count_of silhouette_texels "$folder/sil.json")))
+check "pixels_are_lit_and_shadowed" sh -c "for value in 0 254; do
+    [ \$(tail -c 7500 '$folder/sil.pgm' | od -An -v -tu1 -w1 | grep -cx ' *'\$value) -gt 500 ] || exit 1; done"
+"$gnomon" render "$scene" --size 100x75 --method volumes --stats "$folder/volumes.json"
+check "silhouette_edges_are_those_of_volumes" test "$(count_of silhouette_edges "$folder/sil.json")" -gt 9 -a \
+    "$(count_of silhouette_edges "$folder/sil.json")" = "$(count_of silhouette_edges "$folder/volumes.json")"
+check "texels_with_silhouettes_are_counted" test "$(count_of silhouette_texels "$folder/sil.json")" -gt 100
+check "some_pixels_are_decided_by_them" test "$(count_of pixels_silhouette "$folder/sil.json")" -gt 50
+check "and_no_more_than_come_that_far" test "$(count_of pixels_silhouette "$folder/sil.json")" -le \
+    "$(count_of pixels_virtual "$folder/sil.json")"
+check "in_per_cent_of_those_shaded" agrees silhouette_percent '100 * v["pixels_silhouette"] / v["pixels_shaded"]' "$folder/sil.json"
+# Sen et al. 2003, section 4: a depth of 4 bytes, near silhouettes 3 points of 8 bytes; ours: 3 of 1 byte.
+check "a_shadow_map_takes_4_bytes_a_pixel" agrees shadow_map_bytes_a_pixel 4 "$folder/sil.json"
+check "silhouettes_take_24_p_more" agrees silhouette_map_bytes_a_pixel '4 + 24 * v["silhouette_percent"] / 100' "$folder/sil.json"
+check "which_is_a_ratio" agrees ratio '1 + 6 * v["silhouette_percent"] / 100' "$folder/sil.json"
+check "our_depths_have_their_size" agrees own_shadow_map_bytes_a_pixel 'v["depth_bits"] / 8' "$folder/sil.json"
+check "our_points_have_a_byte" agrees own_silhouette_map_bytes_a_pixel \
+    'v["depth_bits"] / 8 + 3 * v["silhouette_percent"] / 100' "$folder/sil.json"
+check "which_is_another_ratio" agrees own_ratio '1 + 24 / v["depth_bits"] * v["silhouette_percent"] / 100' "$folder/sil.json"
+check "volumes_take_5_and_a_half_bytes_a_fragment" agrees shadow_volumes_bytes_a_pixel '5.5 * v["overdraw"]' "$folder/volumes.json"
+check "and_have_their_ratio" agrees ratio '5.5 / 4 * v["overdraw"]' "$folder/volumes.json"
+check "the_silhouette_map_takes_a_byte_a_texel" agrees silhouettes '128 * 96' "$folder/sil.json"
+check "without_silhouettes_nothing_is_said_of_them" sh -c "'$gnomon' render '$scene' --method mixed --receiver virtual --size 8x6 \
+    --stats '$folder/a.json' --hash >'$folder/printed' && ! grep -qE 'silhouette|bandwidth' '$folder/a.json' '$folder/printed'"
+hash_of "$scene" --method silhouette --stats "$folder/sil.json" --map 40 --size 8x6 --verbose >"$folder/printed" 2>"$folder/said"
+check "silhouettes_have_a_hash" sh -c "[ \$(grep -cE '^silhouettes [0-9a-f]{16}$' '$folder/printed') = 1 ] &&
+    grep -q \$(sed -n 's/^silhouettes //p' '$folder/printed') '$folder/sil.json'"
+check "which_another_scene_changes" test "$(sed -n 's/^silhouettes //p' "$folder/printed")" != \
+    "$(hash_of "$sheet" --method silhouette --map 40 --size 8x6 | sed -n 's/^silhouettes //p')"
+check "verbose_names_their_memory" grep -q "reconstruction silhouette; [0-9]* bytes, of them [0-9]* for the map, \
+$(count_of silhouettes "$folder/sil.json") for its silhouettes$" "$folder/said"
+check "and_their_counts" grep -q "^$(count_of silhouette_edges "$folder/sil.json") silhouette edges, \
+$(count_of silhouette_texels "$folder/sil.json") texels with a point of one; \
+$(count_of pixels_silhouette "$folder/sil.json") pixels decided by them, [0-9.]* % of those shaded$" "$folder/said"
+check "bench_takes_silhouettes" sh -c "'$gnomon' bench '$scene' --runs 1 --size 40x30 --map 32 --method silhouette \
+    --json '$folder/bench.json' | grep -q 'receiver virtual, reconstruction silhouette, region' &&
+    grep -q '\"reconstruction\": \"silhouette\"' '$folder/bench.json'"
+check "a_scene_is_packed_with_silhouettes" status 0 pack "$scene" -o "$folder/sil.gno" --method silhouette
+check "which_has_the_hashes_of_the_method" same_hashes "$(hash_of "$scene" --method silhouette)" "$(hash_of "$folder/sil.gno")"
+check "its_edges_serve_volumes" same_hashes "$(hash_of "$scene" --method volumes)" "$(hash_of "$folder/sil.gno" --method volumes)"
+
 check "a_scene_is_packed" status 0 pack "$scene" -o "$folder/lshape.gno"
 check "a_packed_scene_has_the_same_hashes" same_hashes "$(hash_of "$scene")" "$(hash_of "$folder/lshape.gno")"
 check "what_does_not_say_how_shadows_are_made_packs_no_method" sh -c "'$gnomon' pack '$scene' -o '$folder/again.gno' \
@@ -257,6 +324,21 @@ int main(void)
            chosen_light.kind == samples_light.kind ? 0 : 1;
 }
 END
+check "silhouettes_are_packed_as_c" status 0 pack "$scene" -o "$folder/edges_too.h" --reconstruct silhouette --size 32x24 --map 32
+cat >"$folder/silhouettes.c" <<'END'
+#include "edges_too.h"
+int main(void)
+{
+    gn_plan plan;
+    return edges_too_settings.reconstruction == &gn_silhouettes && edges_too_meshes[0].edges == edges_too_edges_0 &&
+           2 * edges_too_meshes[0].edge_count == 3 * edges_too_meshes[0].triangle_count &&
+           gn_make_plan(&plan, &edges_too_scene, &edges_too_settings) == GN_OK && plan.silhouette_bytes == 32 * 32 &&
+           edges_too_camera.far_depth > 0 && edges_too_light.box_width > 0 ? 0 : 1;
+}
+END
+check "and_compile_without_a_warning" ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror -Icore -I"$folder" \
+    "$folder/silhouettes.c" "$folder"/core/*.o -o "$folder/silhouettes"
+check "with_edges_and_a_map" "$folder/silhouettes"
 check "they_compile_without_a_warning" ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror -Icore -I"$folder" "$folder/chosen.c" \
     "$folder"/core/*.o -o "$folder/chosen"
 check "and_have_the_same_settings" "$folder/chosen"
@@ -272,6 +354,7 @@ reconstruct jitter4x4 gn_jitter_4x4
 reconstruct pcf3 gn_box_3x3
 reconstruct pcf5 gn_box_5x5
 reconstruct pcf7 gn_box_7x7
+reconstruct silhouette gn_silhouettes
 END
 check "a_point_and_a_nearest_texel_are_not_named_in_c" sh -c "'$gnomon' pack '$scene' -o '$folder/none.h' --method dual &&
     grep -q GN_DUAL '$folder/none.h' && ! grep -qE 'slope|receiver|reconstruction' '$folder/none.h'"
@@ -333,12 +416,19 @@ check "nothing_to_write_is_refused" refuses "nothing to write" render "$scene"
 check "an_option_without_its_value_is_refused" refuses "lacks its value" render "$scene" -o
 check "an_option_given_twice_is_refused" refuses "given twice" render "$scene" --map 8 --map=9 -o "$folder/new.ppm"
 check "an_unknown_method_is_refused" refuses "--method best" render "$scene" --method best -o "$folder/new.ppm"
-check "method_silhouette_is_not_built_yet" refuses "--method silhouette is not built yet" render "$scene" --method silhouette \
-    -o "$folder/new.ppm"
-check "silhouettes_are_not_built_yet" refuses "--reconstruct silhouette is not built yet" render "$scene" \
-    --reconstruct silhouette -o "$folder/new.ppm"
-check "pcf9_is_refused" refuses "--reconstruct pcf9; expected one of: nearest, bilinear, jitter4x4, pcf3, pcf5, pcf7" render \
-    "$scene" --reconstruct pcf9 -o "$folder/new.ppm"
+check "pcf9_is_refused" refuses "--reconstruct pcf9; expected one of: nearest, bilinear, jitter4x4, pcf3, pcf5, pcf7, silhouette" \
+    render "$scene" --reconstruct pcf9 -o "$folder/new.ppm"
+for method in mixed auto adaptive volumes; do
+    check "silhouettes_of_${method}_are_refused" refuses "--silhouettes, but no silhouette map is made; expected --method silhouette" \
+        render "$scene" --method $method --silhouettes "$folder/new.ppm" -o "$folder/new-too.ppm"
+done
+check "silhouettes_of_a_filter_are_refused" refuses "expected --method silhouette, or --reconstruct silhouette" render "$scene" \
+    --method silhouette --reconstruct pcf3 --silhouettes "$folder/new.ppm"
+check "grey_silhouettes_are_refused" refuses "expected .ppm" render "$scene" --method silhouette --silhouettes "$folder/new.pgm"
+check "silhouettes_in_a_missing_folder_are_refused" refuses "cannot be written" render "$scene" --method silhouette \
+    --silhouettes "$folder/none/new.ppm" -o "$folder/new.ppm"
+check "silhouettes_and_an_image_in_one_file_are_refused" refuses "two outputs at once" render "$scene" --method silhouette \
+    --silhouettes "$folder/new.ppm" -o "$folder/new.ppm"
 check "msf_is_not_built_yet" refuses "not built yet" render "$scene" --parameterise msf+rectilinear -o "$folder/new.ppm"
 check "an_unknown_receiver_is_refused" refuses "--receiver x; expected one of: point, plane-bias, virtual, virtual-always" \
     render "$scene" --receiver x -o "$folder/new.ppm"
@@ -358,7 +448,7 @@ for slope in 64.00001 -0.1 2x ''; do
     check "a_slope_of_${slope:-nothing_at_all}_is_refused" refuses "--slope $slope; expected a number from 0 to 64" render "$scene" \
         --method slope --slope "$slope" -o "$folder/new.ppm"
 done
-for option in '--receiver virtual' '--reconstruct pcf3' '--slope 2'; do
+for option in '--receiver virtual' '--reconstruct pcf3' '--reconstruct silhouette' '--slope 2'; do
     # shellcheck disable=SC2086 # the option and its value
     check "$(echo "$option" | tr ' ' '_')_with_volumes_is_refused" refuses "${option% *} has no meaning for shadow volumes" \
         render "$scene" --method volumes $option -o "$folder/new.ppm"
@@ -367,6 +457,8 @@ check "a_receiver_of_one_column_is_refused" refuses "the receiver virtual with t
     render "$scene" --map 1x8 -o "$folder/new.ppm"
 check "a_reconstruction_of_one_row_is_refused" refuses "the receiver point with the reconstruction pcf3, but the map is 8 x 1; expected" \
     render "$scene" --map 8x1 --method dual --reconstruct pcf3 -o "$folder/new.ppm"
+check "silhouettes_of_one_row_are_refused" refuses "the receiver virtual with the reconstruction silhouette, but the map is 8 x 1; expected" \
+    render "$scene" --map 8x1 --method silhouette -o "$folder/new.ppm"
 check "a_point_takes_a_map_of_one_texel" status 0 render "$scene" --map 1 --receiver point -o "$folder/a.ppm"
 check "a_negative_bias_is_refused" refuses "bias '-1t'" render "$scene" --method dual --bias -1t -o "$folder/new.ppm"
 check "constant_with_two_layers_is_refused" refuses "makes no sense" render "$scene" --method constant --layers two \

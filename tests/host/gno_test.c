@@ -1,4 +1,5 @@
 /* Packed scenes: what is packed comes back, also as a C header, and broken .gno files are refused with their place. */
+#include "frame.h"
 #include "pack.h"
 #include "sandbox.h"
 
@@ -164,6 +165,81 @@ static void volumes_are_kept(void)
     packed_free(&back);
 }
 
+/* What `gnomon render --hash` prints. */
+static void print_hashes(const char *input, const char *method, char text[300])
+{
+    const char *arguments[] = {sandbox_path(input), "--hash", method, 0};
+    int status = sandbox_run(command_render, arguments);
+    FILE *file = fopen(sandbox_path("in-output"), "rb");
+    text[file ? fread(text, 1, 299, file) : 0] = 0;
+    if (file)
+        fclose(file);
+    if (status != EXIT_DONE)
+        note("%s", sandbox_message);
+}
+
+/* Of the scene as it is, with the edges that it has. */
+static stage_hash hash_of_silhouettes(const packed_scene *packed)
+{
+    frame f;
+    problem why;
+    stage_hash hash = 0;
+    if (frame_open(&f, &packed->scene, &packed->settings, 0, &why) == 0 &&
+        frame_light_pass(&f, &packed->light, &why) == 0)
+        hash = frame_hash_silhouettes(&f);
+    frame_close(&f);
+    return hash;
+}
+
+/* Two triangles that share an edge: without edges the core draws it, too. */
+static void silhouettes_get_edges(void)
+{
+    char whole[300], without[300], named[300];
+    problem why;
+    packed_scene packed;
+    int done = pack_edged("in-edged.scene", "in-joined.gno", "--method=silhouette") &&
+               packed_read(&packed, sandbox_path("in-joined.gno"), 0, &why) == 0;
+    stage_hash hash = hash_of_silhouettes(&packed);
+    packed_drop_edges(&packed);
+    ok(done && hash && hash != hash_of_silhouettes(&packed), "edges_matter_to_silhouettes");
+    done = pack_write(&packed, sandbox_path("in-without.gno"), &why) == 0;
+    packed_free(&packed);
+    print_hashes("in-joined.gno", 0, whole);
+    print_hashes("in-without.gno", 0, without);
+    print_hashes("in-edged.gno", "--method=silhouette", named);
+    ok(done && strstr(whole, "silhouettes ") && strcmp(whole, without) == 0,
+       "a_file_that_lacks_them_is_rendered_with_them");
+    ok(strcmp(whole, named) == 0, "as_is_one_without_a_method_by_that_name");
+}
+
+/* What silhouettes are packed with, and a file that has none: host/pack.h. One triangle has three open edges. */
+static void silhouettes_are_kept(void)
+{
+    enum { WITH_EDGES = SIZE + 3 * 8 };
+    uint8_t bytes[WITH_EDGES], again[WITH_EDGES], without[SIZE];
+    problem why;
+    packed_scene packed;
+    int done = pack_edged("in.scene", "in-silhouettes.gno", "--method=silhouette");
+    ok(done && read_back("in-silhouettes.gno", bytes, WITH_EDGES) && get(bytes, EDGE_COUNT, 4) == 3 &&
+           bytes[METHOD - 1] == 1 && bytes[METHOD + 2] == 4 && bytes[39] == 2 && bytes[48] == 6,
+       "silhouettes_stand_where_documented_and_bring_edges");
+    done = packed_read(&packed, sandbox_path("in-silhouettes.gno"), 0, &why) == 0 && packed.has_method &&
+           packed.settings.surface == GN_MIXED && packed.settings.receiver == &gn_virtual &&
+           packed.settings.reconstruction == &gn_silhouettes && packed.meshes[0].edge_count == 3;
+    ok(done && pack_edged("in-silhouettes.gno", "in-again.gno", 0) && read_back("in-again.gno", again, WITH_EDGES) &&
+           memcmp(again, bytes, WITH_EDGES) == 0,
+       "they_come_back_and_are_packed_again_to_the_same_bytes");
+    packed_drop_edges(&packed);
+    ok(pack_write(&packed, sandbox_path("in-without.gno"), &why) == 0 && read_back("in-without.gno", without, SIZE) &&
+           without[48] == 6 && get(without, EDGE_COUNT, 4) == 0 && pack_edged("in-without.gno", "in-again.gno", 0) &&
+           read_back("in-again.gno", again, WITH_EDGES) && memcmp(again, bytes, WITH_EDGES) == 0,
+       "a_file_of_silhouettes_that_lacks_edges_is_read_and_gets_them");
+    packed_free(&packed);
+    ok(pack_edged("in-silhouettes.gno", "in-again.gno", "--reconstruct=nearest") &&
+           read_back("in-again.gno", without, SIZE) && without[48] == 0 && get(without, EDGE_COUNT, 4) == 0,
+       "another_reconstruction_leaves_the_edges_out");
+}
+
 /* The numbers between the braces that follow a name, in order; returns how many there are. */
 static int numbers_after(const char *text, const char *name, long *numbers, int most)
 {
@@ -270,11 +346,11 @@ static void all_of_a_method_is_packed(void)
 static void every_receiver_and_reconstruction_comes_back(void)
 {
     static const gn_receiver *const receivers[] = {0, &gn_plane_bias, &gn_virtual, &gn_virtual_always};
-    static const gn_reconstruction *const reconstructions[] = {0,           &gn_bilinear, &gn_jitter_4x4,
-                                                               &gn_box_3x3, &gn_box_5x5,  &gn_box_7x7};
+    static const gn_reconstruction *const reconstructions[] = {0,           &gn_bilinear, &gn_jitter_4x4, &gn_box_3x3,
+                                                               &gn_box_5x5, &gn_box_7x7,  &gn_silhouettes};
     int right = 0;
     for (uint8_t i = 0; i < 4; i++)
-        for (uint8_t k = 0; k < 6; k++) {
+        for (uint8_t k = 0; k < 7; k++) {
             uint8_t bytes[SIZE], back[SIZE];
             problem why;
             packed_scene packed;
@@ -292,7 +368,7 @@ static void every_receiver_and_reconstruction_comes_back(void)
             if (!good_one)
                 note("receiver %d, reconstruction %d", i, k);
         }
-    ok(right == 24, "every_receiver_and_reconstruction_comes_back_and_is_written_as_it_was");
+    ok(right == 28, "every_receiver_and_reconstruction_comes_back_and_is_written_as_it_was");
 }
 
 typedef struct change {
@@ -368,7 +444,7 @@ static const change broken_methods[] = {
     {"a_bias_beyond_the_world", 40, 4, (1 << 28) + 1, ": byte 40", "bias is 268435457; expected 0 to 268435456"},
     {"a_slope_above_64", 44, 4, (64 << 16) + 1, ": byte 44", "slope is 4194305; expected 0 to 4194304"},
     {"a_slope_below_0", 44, 4, 0xffffffff, ": byte 44", "slope is -1; expected 0 to 4194304"},
-    {"an_unknown_reconstruction", 48, 1, 6, ": byte 48", "reconstruction is 6; expected 0 to 5"},
+    {"an_unknown_reconstruction", 48, 1, 7, ": byte 48", "reconstruction is 7; expected 0 to 6"},
     {"padding_after_the_reconstruction", 51, 1, 1, ": byte 49", "padding"},
 };
 
@@ -554,6 +630,8 @@ int main(void)
     every_receiver_and_reconstruction_comes_back();
     edges_are_packed();
     volumes_are_kept();
+    silhouettes_are_kept();
+    silhouettes_get_edges();
     a_closed_mesh_is_kept();
     broken_files();
     both_directions();
