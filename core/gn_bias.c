@@ -1,10 +1,8 @@
-/* The bias of a light pass: from world units, texels or shares of the range to units of stored depth. */
+/* Depths along the light: from world units, texels or shares of the range to units of stored depth. */
 #include "gn_context.h"
 
-/* The bias in units of a 32-bit depth; 0xffffffff where it exceeds the range. */
-uint32_t gn_make_bias(const gn_context *context)
+uint32_t gn_make_bias(const gn_context *context, const gn_bias *bias)
 {
-    const gn_bias *bias = &context->settings.bias;
     const gn_light *light = &context->light;
     gn_scaled width = gn_scale(context->settings.map_width, 0), height = gn_scale(context->settings.map_height, 0);
     gn_scaled value = gn_scale(bias->value, bias->unit == GN_BIAS_RANGE ? -32 : bias->unit == GN_BIAS_TEXELS ? -16 : 0);

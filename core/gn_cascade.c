@@ -64,7 +64,8 @@ static void count_stages(const gn_context *context, gn_worker *worker, const gn_
         if (points->triangle[i] == GN_NO_TRIANGLE || !gn_find_pair(context, worker, points->triangle[i])->faces_light)
             continue;
         int outside = points->u[i] == GN_NOWHERE, resampled = points->resampled[i];
-        int reconstructed = points->reconstructed[i], fractional = how->whole != GN_DARK && points->dark[i] > 0 && points->dark[i] < how->whole;
+        int reconstructed = points->reconstructed[i],
+            fractional = how->whole != GN_DARK && points->dark[i] > 0 && points->dark[i] < how->whole;
         uint32_t voted = !outside && find_receiver(context)->votes;
         s->pixels_outside += (uint32_t)outside;
         s->pixels_agreed += (uint32_t)(!outside && !resampled && !fractional && !reconstructed);

@@ -28,9 +28,9 @@ typedef struct gn_lookup {
     const gn_depth *map;
     uint32_t stride;
     uint32_t last_column, last_row;
-    uint32_t bits;   /* fraction bits of u and v, 8 to 18 */
-    uint32_t inside; /* 1: no point lies at the border, but for what gn_index says */
-    uint32_t whole;  /* shares of the reconstruction */
+    uint32_t bits;              /* fraction bits of u and v, 8 to 18 */
+    uint32_t inside;            /* 1: no point lies at the border, but for what gn_index says */
+    uint32_t whole;             /* shares of the reconstruction */
     const uint8_t *silhouettes; /* the silhouette map; 0 without */
 } gn_lookup;
 
@@ -126,13 +126,13 @@ struct gn_receiver {
 };
 
 struct gn_reconstruction {
-    gn_row_shader *shade;     /* gn_cascade_row */
-    gn_vote *vote;            /* sets dark of all points by their own depth, and says which are open */
-    gn_sample *sample;        /* the shadowed shares of a point, by a plane */
-    gn_colour_shader *colour; /* gn_colour_fractions, or gn_colour_row where whole is GN_DARK */
-    uint32_t whole;           /* shares: at most 2^16, or GN_DARK */
-    uint8_t votes, samples;   /* depths that vote and sample compare */
-    uint8_t settles; /* 1: where a receiver has no resample, open points are sampled with their own depth */
+    gn_row_shader *shade;      /* gn_cascade_row */
+    gn_vote *vote;             /* sets dark of all points by their own depth, and says which are open */
+    gn_sample *sample;         /* the shadowed shares of a point, by a plane */
+    gn_colour_shader *colour;  /* gn_colour_fractions, or gn_colour_row where whole is GN_DARK */
+    uint32_t whole;            /* shares: at most 2^16, or GN_DARK */
+    uint8_t votes, samples;    /* depths that vote and sample compare */
+    uint8_t settles;           /* 1: where a receiver has no resample, open points are sampled with their own depth */
     const gn_drawing *drawing; /* what the light pass draws for it beside depths; 0: nothing */
 };
 

@@ -167,8 +167,8 @@ void gn_nearest_row(gn_context *context, uint32_t worker, int32_t row, gn_depth 
 uint64_t gn_lay_out_light(gn_context *context, const gn_plan *plan, const gn_settings *settings);
 uint64_t gn_lay_out_camera(gn_context *context, const gn_plan *plan, const gn_settings *settings);
 
-/* gn_bias.c: in units of a 32-bit depth; 0xffffffff where it exceeds the range. */
-uint32_t gn_make_bias(const gn_context *context);
+/* gn_bias.c: a bias under the context's light, in units of a 32-bit depth; 0xffffffff where it exceeds the range. */
+uint32_t gn_make_bias(const gn_context *context, const gn_bias *bias);
 
 /* gn_shading.c, gn_shade.c: constants of a pair of camera and light, and the shadow test of one row. Afterwards q[i] is
  * negative as a signed number where the pixel is shadowed; where it is lit, with a spot light near / distance, Q2.30.

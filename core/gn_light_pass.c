@@ -497,7 +497,7 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
         status = drawing->begin(context);
     if (status != GN_OK)
         return status;
-    context->bias = gn_make_bias(context);
+    context->bias = gn_make_bias(context, &context->settings.bias);
     context->tan_squared = (uint32_t)(gn_multiply_u(light->tan_half, light->tan_half) >> 29);
     for (uint32_t i = 0; i < context->plan.light_regions; i++)
         context->progress[i] = GN_REGION_UNTOUCHED;

@@ -1,10 +1,11 @@
 #include "gn_segment.h"
 
-enum { MARGIN = GN_CELL_MARGIN, HALF = 128 };
+enum { HALF = 128 };
 
-void gn_make_segment(gn_segment *segment, const gn_vertex *a, const gn_vertex *b)
+int gn_make_segment(gn_segment *segment, const gn_vertex *a, const gn_vertex *b)
 {
-    if (b->y < a->y || (b->y == a->y && b->x < a->x)) {
+    int swap = b->y < a->y || (b->y == a->y && b->x < a->x);
+    if (swap) {
         const gn_vertex *v = a;
         a = b;
         b = v;
@@ -15,12 +16,13 @@ void gn_make_segment(gn_segment *segment, const gn_vertex *a, const gn_vertex *b
     segment->dy = b->y - a->y;
     segment->z = a->depth;
     segment->dz = (int32_t)(b->depth - a->depth);
+    return swap;
 }
 
 void gn_segment_rows(const gn_segment *segment, int32_t *first, int32_t *last)
 {
-    *first = gn_floor_shift(segment->y - MARGIN - 1, 8);
-    *last = gn_floor_shift(segment->y + segment->dy + MARGIN, 8);
+    *first = gn_floor_shift(segment->y - 1, 8);
+    *last = gn_floor_shift(segment->y + segment->dy, 8);
 }
 
 /* floor of x at a height, t below the upper end, and whether it is more than its floor. */
@@ -41,17 +43,17 @@ static int32_t x_at(const gn_segment *s, int32_t t, int *rest)
 void gn_segment_columns(const gn_segment *segment, int32_t row, int32_t *first, int32_t *last)
 {
     int rest_above, rest_below;
-    int32_t top = 256 * row - MARGIN - segment->y;
-    int32_t above = x_at(segment, top, &rest_above), below = x_at(segment, top + 256 + 2 * MARGIN, &rest_below);
+    int32_t top = 256 * row - segment->y;
+    int32_t above = x_at(segment, top, &rest_above), below = x_at(segment, top + 256, &rest_below);
     int rightwards = segment->dx >= 0;
     int32_t left = rightwards ? above + rest_above : below + rest_below, right = rightwards ? below : above;
-    *first = gn_floor_shift(left - MARGIN - 1, 8);
-    *last = gn_floor_shift(right + MARGIN, 8);
+    *first = gn_floor_shift(left - 1, 8);
+    *last = gn_floor_shift(right, 8);
 }
 
 static int is_inside(int32_t x, int32_t y)
 {
-    return x >= -MARGIN && x <= 256 + MARGIN && y >= -MARGIN && y <= 256 + MARGIN;
+    return x >= 0 && x <= 256 && y >= 0 && y <= 256;
 }
 
 /* The way n / d to a crossing, in 2^-32: 0 if the segment does not reach it. */
@@ -102,7 +104,7 @@ void gn_segment_in_cell(const gn_segment *s, int32_t column, int32_t row, gn_seg
     valid[1] = find_way(256 - x - y, s->dx + s->dy, &way[1]);
     for (int i = 0; i < 2; i++) {
         across[i] = x + share(s->dx, way[i]);
-        valid[i] = valid[i] && across[i] >= -MARGIN - 1 && across[i] <= 256 + MARGIN;
+        valid[i] = valid[i] && across[i] >= -1 && across[i] <= 256;
     }
     uint32_t middle = valid[0] && valid[1] ? (way[0] >> 1) + (way[1] >> 1) : valid[0] ? way[0] : way[1];
     point->x = hold(x + share(s->dx, middle));

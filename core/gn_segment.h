@@ -2,9 +2,10 @@
  * 3.1, figure 4).
  *
  * A cell lies between the centres of four texels; cell (0, 0) between those of texels (0, 0) and (1, 1). Coordinates
- * count 1/256 texel from the centre of texel (0, 0). Cells are closed and enlarged by GN_CELL_MARGIN on each side, so a
- * segment near a corner has a point in all four cells about it, and those that it visits are 4-connected. That is exact:
- * in each row of cells the segment's ends are found as quotients with remainders.
+ * count 1/256 texel from the centre of texel (0, 0). Cells are closed: a segment along a border is in the cells on both
+ * sides, through a corner in all four. The paper enlarges the cells for that, as its arithmetic rounds; here the
+ * segment is found in each row of cells as quotients with remainders, exactly, and the cells that it visits are
+ * 4-connected.
  *
  * The point is an end of the segment where one lies in the cell, of two the nearer to the light; else where the segment
  * crosses the cell's diagonals, of two crossings the middle. It is the same whichever end comes first. */
@@ -12,10 +13,6 @@
 #define GN_SEGMENT_H
 
 #include "gn_raster.h"
-
-#ifndef GN_CELL_MARGIN
-#define GN_CELL_MARGIN 4 /* 1/256 texel */
-#endif
 
 typedef struct gn_segment {
     int32_t x, y; /* of the upper end, of two at one height the left one */
@@ -30,8 +27,8 @@ typedef struct gn_segment_point {
     uint32_t z;
 } gn_segment_point;
 
-/* From two vertices on the map. */
-void gn_make_segment(gn_segment *segment, const gn_vertex *a, const gn_vertex *b);
+/* From two vertices on the map. Returns 1 where b is the upper end. */
+int gn_make_segment(gn_segment *segment, const gn_vertex *a, const gn_vertex *b);
 
 /* The rows of cells that it touches, [*first, *last]. */
 void gn_segment_rows(const gn_segment *segment, int32_t *first, int32_t *last);

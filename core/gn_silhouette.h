@@ -41,8 +41,8 @@ int gn_light_side(const gn_light *light, int32_t world[3][3]);
 /* How far a point lies beyond the near plane of a spot light, in 2^-30 units. */
 int64_t gn_beyond_near(const gn_light *light, const int32_t point[3]);
 
-/* Fill facings (2 bits a triangle). *crossing: how many cross the near plane; with 0 for it that plane plays no part, and
- * every triangle faces the light or away, or is seen edge-on. GN_OUT_OF_RANGE: a vertex or a model. */
+/* Fill facings (2 bits a triangle). *crossing: how many cross the near plane; with 0 for it that plane plays no part,
+ * and every triangle faces the light or away, or is seen edge-on. GN_OUT_OF_RANGE: a vertex or a model. */
 gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t *facings, uint32_t *crossing);
 
 /* GN_BAD_MESH: an edge that does not exist or joins nothing, or fewer or more edges than the triangles ask for. */

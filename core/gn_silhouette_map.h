@@ -1,11 +1,11 @@
 /* The light pass's share of silhouette maps (Sen et al. 2003, 3.1): which edges are silhouettes, their segments on the
  * map, and one point a cell.
  *
- * Of several segments in a cell the one that is nearest to the light at its point wins, at equal depth the smaller byte:
- * so the map does not depend on the order of edges, on regions or on workers. A point that lies behind all four texels
- * of its cell is hidden and not written: they are the nearest layer's, before it is resolved; with front faces culled
- * that layer holds back faces, and the test lets more pass. A region that ends within the map draws the nearest depths
- * of the row after it once more for its last cells.
+ * Of several segments in a cell the one that is nearest to the light at its point wins, at equal depth the smaller
+ * byte: so the map does not depend on the order of edges, on regions or on workers. A point that lies behind all four
+ * texels of its cell is hidden and not written: they are the nearest layer's, before it is resolved; with front faces
+ * culled that layer holds back faces, and the test lets more pass. A region that ends within the map draws the nearest
+ * depths of the row after it once more for its last cells.
  *
  * Memory: a byte a texel that stays; during the light pass a depth a texel of a region and worker, a row of depths a
  * worker, 2 bits a triangle and a bit an edge. */
@@ -32,7 +32,8 @@ struct gn_drawing {
 /* What the context keeps for it. */
 struct gn_drawn {
     uint8_t *map;       /* a byte a texel, rows as long as the map is wide */
-    gn_depth *nearest;  /* light pass: of the points that won, GN_FARTHEST none; a region's a worker */
+    gn_depth *keys;     /* light pass: rank of the points that won, GN_FARTHEST none; a region's a worker */
+    uint32_t reach;     /* light pass: of 2^32 */
     gn_depth *row;      /* light pass: the row after a region; one a worker */
     uint8_t *facings;   /* light pass: gn_find_facings */
     uint32_t *chosen;   /* light pass: a bit an edge of the scene, 1: a silhouette */

@@ -257,6 +257,8 @@ extern const gn_reconstruction gn_box_3x3, gn_box_5x5, gn_box_7x7; /* the texels
  * one byte a texel. Meshes need edges; of one without (a triangle soup) every edge of every triangle is drawn, which
  * serves single triangles and is wrong where they join. docs/shadow-test.md. */
 extern const gn_reconstruction gn_silhouettes;
+extern const gn_reconstruction
+    gn_silhouettes_smooth; /* the same with borders a quarter of a texel wide, in five steps */
 
 typedef enum gn_bias_unit {
     GN_BIAS_WORLD = 0, /* whole world units along the light (spot: converted at w = sqrt(near far)) */
@@ -315,8 +317,8 @@ typedef struct gn_context gn_context;
 
 /* Say what the scene needs, and check every mesh (indices, ranges); nothing is written but *plan. GN_UNSUPPORTED:
  * settings that make no sense together, volumes and a mesh without edges, or a receiver or
- * a reconstruction and a map that is less than 2 texels wide or high. GN_BAD_MESH: also, with gn_silhouettes, edges that
- * do not exist, join nothing, or are too few or too many. */
+ * a reconstruction and a map that is less than 2 texels wide or high. GN_BAD_MESH: also, with gn_silhouettes, edges
+ * that do not exist, join nothing, or are too few or too many. */
 gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings);
 
 /* Take the block; the scene (not the settings) must outlive the context. Nothing outside the block is ever written.
@@ -402,11 +404,11 @@ typedef struct gn_statistics {
     uint64_t pixels_virtual;               /* decided by virtual samples */
     uint64_t pixels_fractional;            /* partly lit, by whatever samples */
     uint64_t texels_read, virtual_samples; /* depths compared in all; of them with virtual samples */
-    uint64_t pixels_silhouette;  /* decided by the silhouette map: P of Sen et al. is this over pixels_shaded */
-    uint64_t silhouette_edges;   /* of the latest light pass, or gn_volumes_light */
-    uint64_t silhouette_texels;  /* cells of the silhouette map that hold a point, summed over the light passes */
-    uint64_t volume_faces;                 /* set up in the camera pass, each region counted */
-    uint64_t volume_fragments; /* covered by them; over camera_fragments: the overdraw factor O of Sen et al. */
+    uint64_t pixels_silhouette; /* decided by the silhouette map: P of Sen et al. is this over pixels_shaded */
+    uint64_t silhouette_edges;  /* of the latest light pass, or gn_volumes_light */
+    uint64_t silhouette_texels; /* cells of the silhouette map that hold a point, summed over the light passes */
+    uint64_t volume_faces;      /* set up in the camera pass, each region counted */
+    uint64_t volume_fragments;  /* covered by them; over camera_fragments: the overdraw factor O of Sen et al. */
     uint64_t map_bytes;
 } gn_statistics;
 

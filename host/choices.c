@@ -48,6 +48,7 @@ static const choice reconstructions[] = {
     {"pcf5", "&gn_box_5x5", &gn_box_5x5},
     {"pcf7", "&gn_box_7x7", &gn_box_7x7},
     {"silhouette", "&gn_silhouettes", &gn_silhouettes},
+    {"silhouette-smooth", "&gn_silhouettes_smooth", &gn_silhouettes_smooth},
 };
 
 const choices choices_shadow = TABLE(shadows), choices_cull = TABLE(culls), choices_layers = TABLE(layers),
@@ -70,7 +71,8 @@ int choices_use_slope(const gn_settings *settings)
 
 int choices_have_silhouettes(const gn_settings *settings)
 {
-    return settings->shadow == GN_SHADOW_MAP && settings->reconstruction == &gn_silhouettes;
+    return settings->shadow == GN_SHADOW_MAP &&
+           (settings->reconstruction == &gn_silhouettes || settings->reconstruction == &gn_silhouettes_smooth);
 }
 
 int choices_use_edges(const gn_settings *settings)

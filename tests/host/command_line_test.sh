@@ -111,6 +111,7 @@ mixed --receiver virtual --reconstruct pcf7
 silhouette
 silhouette --receiver point
 constant --receiver virtual-always --reconstruct silhouette
+midpoint --reconstruct silhouette-smooth
 END
 
 # Methods are presets; what is named beside them wins.
@@ -154,6 +155,7 @@ done <<'END'
 --method silhouette --virtual-surface mixed --bias 1t|mixed two none 1 texels - virtual silhouette
 --method silhouette --receiver plane-bias --slope 2|mixed two none 2 texels 2 plane-bias silhouette
 --method silhouette --reconstruct nearest|mixed two none 2 texels - virtual nearest
+--method silhouette --reconstruct silhouette-smooth|mixed two none 2 texels - virtual silhouette-smooth
 --virtual-surface slope|slope first none 0.0005 range 2 point nearest
 --virtual-surface constant --bias 0.02r --layers first --cull none|constant first none 0.02 range - point nearest
 --virtual-surface constant --bias 3t --layers first --cull none|constant first none 3 texels - point nearest
@@ -201,6 +203,8 @@ mask_values() {
 check "a_nearest_texel_gives_no_fraction" test "$(mask_values "$scene" --method mixed)" = "0 "
 ninths="0 28 56 85 113 141 169 198 226 " # floor((254 k + 4) / 9)
 check "pcf3_gives_ninths" test "$(mask_values "$scene" --method mixed --reconstruct pcf3)" = "$ninths"
+check "smooth_silhouettes_give_quarters" test "$(mask_values "$scene" --method silhouette --reconstruct silhouette-smooth)" = \
+    "0 64 127 191 " # floor((254 k + 2) / 4)
 check "they_are_counted" test "$(count_of pixels_fractional "$folder/values.json")" -gt 0
 check "no_virtual_sample_is_taken_of_a_point" test "$(count_of virtual_samples "$folder/values.json")" = 0
 mask_values "$scene" --method mixed --receiver virtual --reconstruct pcf3 >"$folder/printed"
@@ -355,6 +359,7 @@ reconstruct pcf3 gn_box_3x3
 reconstruct pcf5 gn_box_5x5
 reconstruct pcf7 gn_box_7x7
 reconstruct silhouette gn_silhouettes
+reconstruct silhouette-smooth gn_silhouettes_smooth
 END
 check "a_point_and_a_nearest_texel_are_not_named_in_c" sh -c "'$gnomon' pack '$scene' -o '$folder/none.h' --method dual &&
     grep -q GN_DUAL '$folder/none.h' && ! grep -qE 'slope|receiver|reconstruction' '$folder/none.h'"
@@ -416,7 +421,7 @@ check "nothing_to_write_is_refused" refuses "nothing to write" render "$scene"
 check "an_option_without_its_value_is_refused" refuses "lacks its value" render "$scene" -o
 check "an_option_given_twice_is_refused" refuses "given twice" render "$scene" --map 8 --map=9 -o "$folder/new.ppm"
 check "an_unknown_method_is_refused" refuses "--method best" render "$scene" --method best -o "$folder/new.ppm"
-check "pcf9_is_refused" refuses "--reconstruct pcf9; expected one of: nearest, bilinear, jitter4x4, pcf3, pcf5, pcf7, silhouette" \
+check "pcf9_is_refused" refuses "--reconstruct pcf9; expected one of: nearest, bilinear, jitter4x4, pcf3, pcf5, pcf7, silhouette, silhouette-smooth" \
     render "$scene" --reconstruct pcf9 -o "$folder/new.ppm"
 for method in mixed auto adaptive volumes; do
     check "silhouettes_of_${method}_are_refused" refuses "--silhouettes, but no silhouette map is made; expected --method silhouette" \
