@@ -445,7 +445,7 @@ static const change broken_methods[] = {
     {"a_bias_beyond_the_world", 40, 4, (1 << 28) + 1, ": byte 40", "bias is 268435457; expected 0 to 268435456"},
     {"a_slope_above_64", 44, 4, (64 << 16) + 1, ": byte 44", "slope is 4194305; expected 0 to 4194304"},
     {"a_slope_below_0", 44, 4, 0xffffffff, ": byte 44", "slope is -1; expected 0 to 4194304"},
-    {"an_unknown_reconstruction", 48, 1, 7, ": byte 48", "reconstruction is 7; expected 0 to 6"},
+    {"an_unknown_reconstruction", 48, 1, 200, ": byte 48", "reconstruction is 200; expected 0 to 7"},
     {"padding_after_the_reconstruction", 51, 1, 1, ": byte 49", "padding"},
 };
 
