@@ -25,14 +25,9 @@ void gn_segment_rows(const gn_segment *segment, int32_t *first, int32_t *last)
     *last = gn_floor_shift(segment->y + segment->dy, 8);
 }
 
-/* floor of x at a height, t below the upper end, and whether it is more than its floor. */
+/* floor of x at a height, t below the upper end, 0 <= t <= dy != 0, and whether it is more than its floor. */
 static int32_t x_at(const gn_segment *s, int32_t t, int *rest)
 {
-    *rest = 0;
-    if (t <= 0)
-        return s->x;
-    if (t >= s->dy)
-        return s->x + s->dx;
     uint32_t width = s->dx < 0 ? 0u - (uint32_t)s->dx : (uint32_t)s->dx, height = (uint32_t)s->dy;
     uint64_t n = gn_multiply_u((uint32_t)t, width);
     uint32_t quotient = n >> 32 ? gn_divide(n, height) : (uint32_t)n / height;
@@ -42,9 +37,10 @@ static int32_t x_at(const gn_segment *s, int32_t t, int *rest)
 
 void gn_segment_columns(const gn_segment *segment, int32_t row, int32_t *first, int32_t *last)
 {
-    int rest_above, rest_below;
-    int32_t top = 256 * row - segment->y;
-    int32_t above = x_at(segment, top, &rest_above), below = x_at(segment, top + 256, &rest_below);
+    int rest_above = 0, rest_below = 0;
+    int32_t top = 256 * row - segment->y, bottom = top + 256;
+    int32_t above = top <= 0 ? segment->x : x_at(segment, top, &rest_above);
+    int32_t below = bottom >= segment->dy ? segment->x + segment->dx : x_at(segment, bottom, &rest_below);
     int rightwards = segment->dx >= 0;
     int32_t left = rightwards ? above + rest_above : below + rest_below, right = rightwards ? below : above;
     *first = gn_floor_shift(left - 1, 8);
