@@ -20,12 +20,17 @@ enum { LIBRARY_HAS_VECTORS = GN_VECTOR };
 #endif
 #include "scenes.h"
 
+/* The cascade is in blocks of its own, which change no pixel. */
+#define GN_BLOCK 7
+
 /* The light pass. */
+#define gn_nearest_row twin_nearest_row
 #define gn_light_begin twin_light_begin
 #define gn_light_pass twin_light_pass
 #define gn_light_layers twin_light_layers
 #define gn_light_resolve twin_light_resolve
 #define gn_layer twin_layer
+void gn_nearest_row(gn_context *context, uint32_t worker, int32_t row, gn_depth *depths);
 gn_status gn_light_begin(gn_context *context, const gn_light *light);
 gn_status gn_light_pass(gn_context *context, const gn_light *light);
 gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker);
@@ -33,6 +38,7 @@ gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker
 const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t region, uint32_t worker,
                          uint32_t *first_row, uint32_t *rows, uint32_t *stride);
 #include "gn_light_pass.c"
+#undef gn_nearest_row
 #undef gn_light_begin
 #undef gn_light_pass
 #undef gn_light_layers
@@ -53,8 +59,7 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
 #undef count_span
 #undef gn_rasterise_region
 
-/* The cascade, with votes of its own where there are no vectors; and in blocks of its own, which change no pixel. */
-#define GN_BLOCK 7
+/* The cascade, with votes of its own where there are no vectors. */
 #include "gn_cascade.h"
 #define make_lookup make_cascade_lookup
 #define test_box test_box_of_points
@@ -65,6 +70,11 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
 #define gn_cascade_row twin_cascade_row
 #define gn_virtual twin_virtual
 #define gn_virtual_always twin_virtual_always
+#define gn_vote_around twin_vote_around
+#define gn_sample_nearest twin_sample_nearest
+#define gn_look_at_border twin_look_at_border
+#define gn_look_beyond twin_look_beyond
+#define gn_silhouettes twin_silhouettes
 uint32_t gn_point_bits(const gn_context *context);
 void gn_start_points(const gn_context *context, gn_points *points);
 void gn_find_points(const gn_context *context, gn_points *points, uint32_t *q);
@@ -72,6 +82,10 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
 #include "gn_cascade.c"
 #include "gn_points.c"
 #include "gn_virtual.c"
+#define sample sample_quadrant
+#include "gn_around.c"
+#include "gn_quadrants.c"
+#undef sample
 #undef make_lookup
 #undef test_box
 #undef compare
@@ -81,6 +95,11 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
 #undef gn_cascade_row
 #undef gn_virtual
 #undef gn_virtual_always
+#undef gn_vote_around
+#undef gn_sample_nearest
+#undef gn_look_at_border
+#undef gn_look_beyond
+#undef gn_silhouettes
 #undef OUTSIDE
 
 /* The shadow test. */
@@ -140,8 +159,10 @@ static gn_settings random_settings(void)
     s.region_height = (uint16_t)between(0, s.height);
     s.surface = surfaces[between(0, 5)];
     s.slope = between(0, 4 << 16);
-    if (s.map_width > 1 && s.map_height > 1)
+    if (s.map_width > 1 && s.map_height > 1) {
         s.receiver = &gn_virtual;
+        s.reconstruction = between(0, 1) ? &gn_silhouettes : 0;
+    }
     s.cull = s.surface == GN_CONSTANT || s.surface == GN_SLOPE ? (uint8_t)between(GN_CULL_NONE, GN_CULL_FRONT)
                                                                : GN_CULL_NONE;
     if (s.surface == GN_SECOND)
@@ -253,6 +274,8 @@ static gn_context packed_otherwise(const gn_context *context)
         memcpy(other.map + row * other.map_stride, context->map + row * context->map_stride, width * sizeof *other.map);
     if (other.settings.receiver)
         other.settings.receiver = &twin_virtual;
+    if (other.settings.reconstruction)
+        other.settings.reconstruction = &twin_silhouettes;
     return other;
 }
 
