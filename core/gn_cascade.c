@@ -1,6 +1,6 @@
 /* The cascade of a row, in blocks: points, votes, virtual samples, what is written. See gn_cascade.h. */
 #include "gn_cascade.h"
-#include "gn_silhouette_map.h"
+#include "gn_drawing.h"
 
 /* What stands for no receiver. */
 static const gn_receiver the_point = {gn_cascade_row, 0, 0, 0, 0, 0, 1};

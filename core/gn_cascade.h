@@ -31,7 +31,7 @@ typedef struct gn_lookup {
     uint32_t bits;              /* fraction bits of u and v, 8 to 18 */
     uint32_t inside;            /* 1: no point lies at the border, but for what gn_index says */
     uint32_t whole;             /* shares of the reconstruction */
-    const uint8_t *silhouettes; /* the silhouette map; 0 without */
+    const uint8_t *silhouettes; /* the silhouette or crossing map; 0 without */
 } gn_lookup;
 
 /* The shadowed shares of a point that lies nowhere on the map. */

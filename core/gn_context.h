@@ -87,7 +87,7 @@ struct gn_context {
     gn_vertex *vertices;
     uint32_t triangle_bits;     /* identifier = object << triangle_bits | triangle */
     struct gn_volumes *volumes; /* 0 with shadow maps */
-    gn_drawn *drawn;            /* gn_silhouette_map.h; 0 without */
+    gn_drawn *drawn;            /* gn_drawing.h; 0 without */
 
     gn_light light;
     gn_view light_view;

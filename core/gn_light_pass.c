@@ -12,7 +12,7 @@
  * Memory: map, 12 bytes a vertex, the second layer of one region a worker. */
 #include "gn_cascade.h"
 #include "gn_clip.h"
-#include "gn_silhouette_map.h"
+#include "gn_drawing.h"
 #include "gn_tally.h"
 
 #define GN_DEPTH_SHIFT (32 - GN_DEPTH_BITS)

@@ -1,6 +1,6 @@
 /* Planning: what a scene needs, checked and laid out before anything is rendered. */
 #include "gn_cascade.h"
-#include "gn_silhouette_map.h"
+#include "gn_drawing.h"
 #include "gn_volumes.h"
 
 gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_size)

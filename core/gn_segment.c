@@ -25,14 +25,19 @@ void gn_segment_rows(const gn_segment *segment, int32_t *first, int32_t *last)
     *last = gn_floor_shift(segment->y + segment->dy, 8);
 }
 
+int32_t gn_segment_share(int32_t d, int32_t t, int32_t length, int *rest)
+{
+    uint32_t size = d < 0 ? 0u - (uint32_t)d : (uint32_t)d;
+    uint64_t n = gn_multiply_u((uint32_t)t, size);
+    uint32_t quotient = n >> 32 ? gn_divide(n, (uint32_t)length) : (uint32_t)n / (uint32_t)length;
+    *rest = (uint32_t)n != quotient * (uint32_t)length;
+    return d < 0 ? -(int32_t)quotient - *rest : (int32_t)quotient;
+}
+
 /* floor of x at a height, t below the upper end, 0 <= t <= dy != 0, and whether it is more than its floor. */
 static int32_t x_at(const gn_segment *s, int32_t t, int *rest)
 {
-    uint32_t width = s->dx < 0 ? 0u - (uint32_t)s->dx : (uint32_t)s->dx, height = (uint32_t)s->dy;
-    uint64_t n = gn_multiply_u((uint32_t)t, width);
-    uint32_t quotient = n >> 32 ? gn_divide(n, height) : (uint32_t)n / height;
-    *rest = (uint32_t)n != quotient * height;
-    return s->dx < 0 ? s->x - (int32_t)quotient - *rest : s->x + (int32_t)quotient;
+    return s->x + gn_segment_share(s->dx, t, s->dy, rest);
 }
 
 void gn_segment_columns(const gn_segment *segment, int32_t row, int32_t *first, int32_t *last)

@@ -30,6 +30,10 @@ typedef struct gn_segment_point {
 /* From two vertices on the map. Returns 1 where b is the upper end. */
 int gn_make_segment(gn_segment *segment, const gn_vertex *a, const gn_vertex *b);
 
+/* A share of dx, dy or dz: floor(d t / length), 0 <= t <= length; *rest: whether the quotient is more than its floor.
+ */
+int32_t gn_segment_share(int32_t d, int32_t t, int32_t length, int *rest);
+
 /* The rows of cells that it touches, [*first, *last]. */
 void gn_segment_rows(const gn_segment *segment, int32_t *first, int32_t *last);
 

@@ -254,11 +254,16 @@ extern const gn_reconstruction gn_box_3x3, gn_box_5x5, gn_box_7x7; /* the texels
 
 /* A silhouette map (Sen, Cammarano & Hanrahan 2003): hard shadows whose borders follow the silhouettes of the meshes
  * through the texels, and not the texels' sides. The light pass draws the silhouette edges of all meshes into a map of
- * one byte a texel. Meshes need edges; of one without (a triangle soup) every edge of every triangle is drawn, which
- * serves single triangles and is wrong where they join. docs/shadow-test.md. */
-extern const gn_reconstruction gn_silhouettes;
-extern const gn_reconstruction
-    gn_silhouettes_smooth; /* the same with borders a quarter of a texel wide, in five steps */
+ * one byte a texel. Meshes need edges; of one without (a triangle soup) the edges of every triangle are drawn
+ * where they separate depths, at about a fifth more error. smooth: the same borders a quarter of a texel wide, in five
+ * steps of light. docs/shadow-test.md. */
+extern const gn_reconstruction gn_silhouettes, gn_silhouettes_smooth;
+
+/* A crossing map: the same end by the places where silhouettes cross the sides between texels, two to a byte, instead
+ * of a point a cell. Straight borders come out straight, corners within a texel are cut off. No depths are kept while
+ * it is made, and of several silhouettes the outermost stays, so meshes without edges do as well, with more work in the
+ * light pass and somewhat less exact borders. docs/shadow-test.md. */
+extern const gn_reconstruction gn_crossings;
 
 typedef enum gn_bias_unit {
     GN_BIAS_WORLD = 0, /* whole world units along the light (spot: converted at w = sqrt(near far)) */
@@ -301,7 +306,7 @@ gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_si
 typedef struct gn_plan {
     size_t bytes;                 /* of the whole block: the maximum of the two passes */
     size_t map_bytes;             /* of it: the shadow map, which stays between the passes */
-    size_t silhouette_bytes;      /* of it: the silhouette map, which stays as well; 0 without */
+    size_t silhouette_bytes;      /* of it: the silhouette or crossing map, which stays as well; 0 without */
     size_t light_bytes;           /* needed during the light pass, map included */
     size_t camera_bytes;          /* needed during the camera pass, map included */
     uint32_t triangles, vertices; /* of all objects; a mesh used twice counts twice */
@@ -317,8 +322,8 @@ typedef struct gn_context gn_context;
 
 /* Say what the scene needs, and check every mesh (indices, ranges); nothing is written but *plan. GN_UNSUPPORTED:
  * settings that make no sense together, volumes and a mesh without edges, or a receiver or
- * a reconstruction and a map that is less than 2 texels wide or high. GN_BAD_MESH: also, with gn_silhouettes, edges
- * that do not exist, join nothing, or are too few or too many. */
+ * a reconstruction and a map that is less than 2 texels wide or high. GN_BAD_MESH: also, with silhouettes or
+ * crossings, edges that do not exist, join nothing, or are too few or too many. */
 gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings);
 
 /* Take the block; the scene (not the settings) must outlive the context. Nothing outside the block is ever written.
@@ -350,6 +355,12 @@ const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t reg
  * silhouette that passes through it, in 1/16 texel from the cell's upper left corner; 0x88, the centre, where there is
  * none. Cells that are not between four texels (the last column and the last row) hold 0x88. 0 without. */
 const uint8_t *gn_silhouette_map(const gn_context *context, uint32_t *stride);
+
+/* After the light pass with gn_crossings: a byte a texel, texel (column, row) at row * *stride + column. Low 4 bits:
+ * where a silhouette crosses the way from the texel's centre to the centre of the next texel to the right, high 4 bits:
+ * to the one below, in 1/16 of the way, 1 to 15; 0: nowhere, which is read as 8. There is nothing beyond the last
+ * column and the last row: 0. 0 without. */
+const uint8_t *gn_crossing_map(const gn_context *context, uint32_t *stride);
 
 /* ---- camera pass ----------------------------------------------------------------------------------------------- */
 
@@ -404,9 +415,10 @@ typedef struct gn_statistics {
     uint64_t pixels_virtual;               /* decided by virtual samples */
     uint64_t pixels_fractional;            /* partly lit, by whatever samples */
     uint64_t texels_read, virtual_samples; /* depths compared in all; of them with virtual samples */
-    uint64_t pixels_silhouette; /* decided by the silhouette map: P of Sen et al. is this over pixels_shaded */
+    uint64_t
+        pixels_silhouette; /* decided by the silhouette or crossing map: P of Sen et al. is this over pixels_shaded */
     uint64_t silhouette_edges;  /* of the latest light pass, or gn_volumes_light */
-    uint64_t silhouette_texels; /* cells of the silhouette map that hold a point, summed over the light passes */
+    uint64_t silhouette_texels; /* bytes of the map that hold a point or a crossing, summed over the light passes */
     uint64_t volume_faces;      /* set up in the camera pass, each region counted */
     uint64_t volume_fragments;  /* covered by them; over camera_fragments: the overdraw factor O of Sen et al. */
     uint64_t map_bytes;
