@@ -37,3 +37,12 @@ uint32_t gn_sample_nearest(const gn_lookup *l, gn_points *points, int32_t i, con
     uint32_t z = gn_cut(gn_saturate(gn_wide_depth(plane, (int32_t)column, (int32_t)row)));
     return z <= l->map[row * l->stride + column] ? 0 : GN_DARK;
 }
+
+void gn_settle(const gn_reconstruction *how, const gn_lookup *lookup, gn_points *points)
+{
+    for (int32_t n = 0; n < points->open_count; n++) {
+        int32_t i = points->open[n];
+        gn_wide_plane level = {points->z[i], 0, 0};
+        points->dark[i] = how->sample(lookup, points, i, &level);
+    }
+}

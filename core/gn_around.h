@@ -40,6 +40,9 @@ GN_INLINE uint32_t gn_look(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t 
 /* The votes of these four. */
 gn_vote gn_vote_around;
 
+/* Settles open points: each is sampled with its own depth. */
+void gn_settle(const gn_reconstruction *how, const gn_lookup *lookup, gn_points *points);
+
 /* The comparison of the texel that holds a point with the plane's depth at its centre. */
 gn_sample gn_sample_nearest;
 

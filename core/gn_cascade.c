@@ -102,16 +102,6 @@ static void vote(const gn_context *context, gn_worker *worker, const gn_reconstr
         how->vote(lookup, points);
 }
 
-/* Sample open points by their own depth. */
-static void settle(const gn_reconstruction *how, const gn_lookup *lookup, gn_points *points)
-{
-    for (int32_t n = 0; n < points->open_count; n++) {
-        int32_t i = points->open[n];
-        gn_wide_plane level = {points->z[i], 0, 0};
-        points->dark[i] = how->sample(lookup, points, i, &level);
-    }
-}
-
 void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count)
 {
     const gn_receiver *receiver = find_receiver(context);
@@ -142,8 +132,8 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
             vote(context, worker, how, &lookup, &points, q);
         if (receiver->resample && (points.open_count || !receiver->votes))
             receiver->resample(context, worker, &lookup, &points, how->sample);
-        else if (how->settles)
-            settle(how, &lookup, &points);
+        else if (how->settle)
+            how->settle(how, &lookup, &points);
 #if GN_STATISTICS
         count_stages(context, worker, &points, how);
 #endif

@@ -126,13 +126,14 @@ struct gn_receiver {
 };
 
 struct gn_reconstruction {
-    gn_row_shader *shade;      /* gn_cascade_row */
-    gn_vote *vote;             /* sets dark of all points by their own depth, and says which are open */
-    gn_sample *sample;         /* the shadowed shares of a point, by a plane */
-    gn_colour_shader *colour;  /* gn_colour_fractions, or gn_colour_row where whole is GN_DARK */
-    uint32_t whole;            /* shares: at most 2^16, or GN_DARK */
-    uint8_t votes, samples;    /* depths that vote and sample compare */
-    uint8_t settles;           /* 1: where a receiver has no resample, open points are sampled with their own depth */
+    gn_row_shader *shade;     /* gn_cascade_row */
+    gn_vote *vote;            /* sets dark of all points by their own depth, and says which are open */
+    gn_sample *sample;        /* the shadowed shares of a point, by a plane */
+    gn_colour_shader *colour; /* gn_colour_fractions, or gn_colour_row where whole is GN_DARK */
+    uint32_t whole;           /* shares: at most 2^16, or GN_DARK */
+    uint8_t votes, samples;   /* depths that vote and sample compare */
+    /* Decides open points where a receiver has no resample; 0: they stay as they are. */
+    void (*settle)(const gn_reconstruction *how, const gn_lookup *lookup, gn_points *points);
     const gn_drawing *drawing; /* what the light pass draws for it beside depths; 0: nothing */
 };
 

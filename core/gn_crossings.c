@@ -74,5 +74,5 @@ static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const g
     return dark >> find_texel(l, u, v, dark) & 1 ? GN_DARK : 0;
 }
 
-const gn_reconstruction gn_crossings = {gn_cascade_row,    gn_vote_around, sample, gn_colour_row, GN_DARK, 4, 4, 1,
-                                        &gn_draw_crossings};
+const gn_reconstruction gn_crossings = {gn_cascade_row, gn_vote_around,    sample, gn_colour_row, GN_DARK, 4, 4,
+                                        gn_settle,      &gn_draw_crossings};

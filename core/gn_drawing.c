@@ -64,8 +64,7 @@ static void choose_edges(gn_context *context)
     for (uint32_t o = 0; o < context->scene->object_count; o++) {
         const gn_mesh *mesh = context->scene->objects[o].mesh;
         for (uint32_t e = 0; mesh->edges && e < mesh->edge_count; e++, number++) {
-            uint32_t ends[2];
-            if (gn_edge_winding(mesh, &mesh->edges[e], drawn->facings, first_triangle, ends) == 0)
+            if (gn_edge_winding(mesh, &mesh->edges[e], drawn->facings, first_triangle, 0) == 0)
                 continue;
             drawn->chosen[number >> 5] |= 1u << (number & 31);
             drawn->count++;

@@ -49,4 +49,4 @@ static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const g
 }
 
 const gn_reconstruction gn_silhouettes_smooth = {
-    gn_cascade_row, vote, sample, gn_colour_fractions, PLACES, 4, 4, 1, &gn_draw_silhouettes};
+    gn_cascade_row, vote, sample, gn_colour_fractions, PLACES, 4, 4, gn_settle, &gn_draw_silhouettes};

@@ -65,7 +65,8 @@ gn_status gn_find_facings(const gn_scene *scene, const gn_light *light, uint8_t 
 int32_t gn_edge_winding(const gn_mesh *mesh, const gn_mesh_edge *edge, const uint8_t *facings, uint32_t first_triangle,
                         uint32_t ends[2])
 {
-    gn_half_edge_ends(mesh, edge->half[0], ends);
+    if (ends)
+        gn_half_edge_ends(mesh, edge->half[0], ends);
     int32_t winding = gn_facing_sign(gn_facing_of(facings, first_triangle + edge->half[0] / 3));
     if (edge->half[1] == GN_NO_HALF_EDGE)
         return winding;
@@ -137,8 +138,7 @@ gn_status gn_list_silhouettes(const gn_scene *scene, const uint8_t *facings, uin
         if (status != GN_OK)
             return status;
         for (uint32_t e = 0; e < mesh->edge_count; e++) {
-            uint32_t ends[2];
-            if (gn_edge_winding(mesh, &mesh->edges[e], facings, first, ends) == 0)
+            if (gn_edge_winding(mesh, &mesh->edges[e], facings, first, 0) == 0)
                 continue;
             gn_silhouette silhouette = {o << edge_bits | e, 0, 0};
             list[(*count)++] = silhouette;

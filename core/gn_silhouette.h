@@ -55,8 +55,8 @@ void gn_half_edge_ends(const gn_mesh *mesh, uint32_t half, uint32_t ends[2]);
 gn_status gn_list_silhouettes(const gn_scene *scene, const uint8_t *facings, uint32_t edge_bits, gn_silhouette *list,
                               uint32_t *count);
 
-/* The ends of an edge as vertices of its mesh, and its winding: positive where the first triangle's direction counts.
- */
+/* The ends of an edge as vertices of its mesh (ends may be 0), and its winding: positive where the first triangle's
+ * direction counts. */
 int32_t gn_edge_winding(const gn_mesh *mesh, const gn_mesh_edge *edge, const uint8_t *facings, uint32_t first_triangle,
                         uint32_t ends[2]);
 

@@ -59,13 +59,15 @@ static int is_hidden(const gn_depth texel[4], uint32_t z)
  * x, y: of the segment's upper end, from the upper left texel. */
 static void find_sides(const gn_stroke *s, int32_t x, int32_t y, uint32_t *caster, uint32_t *other)
 {
-    int64_t side = gn_multiply(s->dy, x) - gn_multiply(s->dx, y); /* of the upper left texel: < 0 the caster's */
-    int64_t across = -256 * (int64_t)s->dy, down = 256 * (int64_t)s->dx;
+    /* Modulo 2^32: the segment passes through the cell, so its length, below 2^21.5, times the way of a texel to it,
+     * 2^8.5 at most, stays within 2^30. */
+    uint32_t dx = (uint32_t)s->dx, dy = (uint32_t)s->dy;
+    uint32_t side = dy * (uint32_t)x - dx * (uint32_t)y; /* of the upper left texel: < 0 the caster's */
     *caster = *other = 0;
     for (int i = 0; i < 4; i++) {
-        int64_t of_texel = side + (i & 1 ? across : 0) + (i & 2 ? down : 0);
-        *caster |= (uint32_t)(of_texel < 0) << i;
-        *other |= (uint32_t)(of_texel > 0) << i;
+        *caster |= (uint32_t)((int32_t)side < 0) << i;
+        *other |= (uint32_t)((int32_t)side > 0) << i;
+        side += i == 1 ? 256 * (dx + dy) : 0u - 256 * dy; /* on to the next: to the right, or to the row below */
     }
 }
 

@@ -29,8 +29,8 @@ int gn_dot_sign(const int64_t n[3], const int32_t v[3])
 {
     int64_t high = 0, low = 0;
     for (int i = 0; i < 3; i++) {
-        high += gn_floor_shift_64(n[i], 31) * v[i];
-        low += (n[i] & 0x7fffffff) * v[i];
+        high += gn_multiply((int32_t)gn_floor_shift_64(n[i], 31), v[i]);
+        low += gn_multiply((int32_t)(n[i] & 0x7fffffff), v[i]);
     }
     high += gn_floor_shift_64(low, 31);
     return high < 0 ? -1 : high > 0 || (low & 0x7fffffff) ? 1 : 0;
@@ -38,10 +38,9 @@ int gn_dot_sign(const int64_t n[3], const int32_t v[3])
 
 void gn_cross(int64_t n[3], const int32_t a[3], const int32_t b[3])
 {
-    for (int i = 0; i < 3; i++) {
-        int j = i < 2 ? i + 1 : 0, k = 3 - i - j;
-        n[i] = gn_multiply(a[j], b[k]) - gn_multiply(a[k], b[j]);
-    }
+    n[0] = gn_multiply(a[1], b[2]) - gn_multiply(a[2], b[1]);
+    n[1] = gn_multiply(a[2], b[0]) - gn_multiply(a[0], b[2]);
+    n[2] = gn_multiply(a[0], b[1]) - gn_multiply(a[1], b[0]);
 }
 
 gn_status gn_triangle_world(const gn_object *object, uint32_t triangle, int32_t world[3][3])
