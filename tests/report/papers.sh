@@ -4,7 +4,7 @@
 #     tests/report/papers.sh BUILD -o FOLDER
 #
 # BUILD is the folder of `make BUILD=... all`, with OpenImageIO. Call it from the top of the project: it builds
-# tests/report/stages.c and mosaic.c. ROUNDS (3) times RUNS (9) frames are measured of each cell of the table of times.
+# tests/report/stages.c, cells.c and mosaic.c. ROUNDS (3) times RUNS (9) frames are measured of each cell of the table of times.
 set -eu
 
 here=$(dirname "$0")
@@ -176,6 +176,10 @@ virtual="--receiver virtual"
     part="@180x200+60+150"
     join papers-factory 3 constant6$part midpoint$part dual6$part
 }
+
+# ---- Sen, Cammarano & Hanrahan 2003 ---------------------------------------------------------------------------------
+
+"$here/papers_sen.sh" "$build" -o "$folder"
 
 # ---- times ---------------------------------------------------------------------------------------------------------
 

@@ -68,8 +68,7 @@ static struct {
 } recording;
 
 /* By the plane itself: z < stored is z + 1 <= stored, the same plane one stored unit farther. */
-static uint32_t sample_strictly(const gn_lookup *lookup, const gn_points *points, int32_t i,
-                                const gn_wide_plane *nearer)
+static uint32_t sample_strictly(const gn_lookup *lookup, gn_points *points, int32_t i, const gn_wide_plane *nearer)
 {
     const gn_receiver_plane *plane = gn_find_plane(recording.context, recording.worker, points->triangle[i]);
     gn_wide_plane farther = plane->exists ? plane->plane : *nearer;

@@ -4,7 +4,7 @@
 #     tests/report/stages.sh BUILD -o FOLDER
 #
 # BUILD is the folder of `make BUILD=... all`, with OpenImageIO. Call it from the top of the project: it builds
-# tests/report/stages.c and mosaic.c.
+# tests/report/stages.c, cells.c and mosaic.c.
 set -eu
 
 here=$(dirname "$0")
@@ -12,8 +12,16 @@ here=$(dirname "$0")
 . "$here/shots.sh"
 
 start_pictures "$@"
+build_program cells "$work/cells"
 mkdir -p "$work/second" "$work/mixed" "$work/bilinear" "$work/sun"
-for scene in room torus2 table crowd sheets pins; do "$build/gnomon" procedural $scene -o "$work"; done
+for scene in room torus2 table crowd sheets pins castle; do "$build/gnomon" procedural $scene -o "$work"; done
+# The foot of a chair in the room, and the shadow of the castle's wall, from near by.
+near() {
+    sed "s/^image.*/image 400 300/; s/^camera.*/camera perspective $3 up 0 1 0 near .1 far 500/" "$work/$1.scene" \
+        >"$work/$2.scene"
+}
+near room chair "eye -3.3 2.2 4.6 target -1.49 0 2.326 fovy 12"
+near castle wall "eye 9.5 8.5 12.5 target 6.22 0 1.573 fovy 2"
 "$here/truth.sh" "$build/gnomon" "$work"/*.scene -o "$work"
 
 second="--method second-depth"
@@ -51,6 +59,38 @@ echo "== points compared, map 128"
 
     shot nearest room --method mixed $virtual --map 256
     join shadow-test-result 2 mixed@400x300+200+180 mixed.difference@400x300+200+180
+
+    echo "== silhouettes"
+    silhouette="--method silhouette"
+    for scene in room chair; do
+        mkdir -p "$work/$scene"
+        echo "$scene: $("$work/cells" "$work/$scene.scene" "$work/$scene.pgm" $silhouette --map 128 -o "$work/$scene")"
+    done
+    join shadow-test-cells 2 chair/before chair/after
+    for how in nearest silhouette silhouette-smooth; do
+        shot sharp-$how room --method mixed $virtual --reconstruct $how --map 128
+    done
+    part="@100x75+285+395*3"
+    join shadow-test-smooth 3 sharp-nearest$part sharp-silhouette$part sharp-silhouette-smooth$part
+    part="@400x300+200+180"
+    join shadow-test-gain 2 sharp-nearest.difference$part sharp-silhouette.difference$part
+    "$build/gnomon" render "$work/room.scene" $silhouette --map 128 --silhouettes "$work/map.png"
+    join shadow-test-silhouettes 2 map@400x300+1240+1260 chair/scene
+    shot wall wall $silhouette --map 512
+    mkdir -p "$work/wall"
+    echo "wall: $("$work/cells" "$work/wall.scene" "$work/wall.pgm" $silhouette --map 512 -o "$work/wall")"
+    join shadow-test-two-edges 2 wall/truth wall/after
+
+    echo "== memory, room, bytes: map, silhouettes, light pass, camera pass, all"
+    for map in 64 128 256 512; do
+        for how in "--method mixed $virtual" "--method mixed $virtual --map-rows 16" "$silhouette" \
+            "$silhouette --map-rows 16"; do
+            "$build/gnomon" render "$work/room.scene" $how --map $map --size 320x240 --stats "$work/stats.json"
+            awk -F '[:,]' -v name="$map $how" '{ gsub(/[" ]/, "", $1) } !($1 in n) { n[$1] = $2 + 0 }
+                END { print name ": " n["map"], n["silhouettes"], n["light_pass"], n["camera_pass"], n["all"] }' \
+                "$work/stats.json"
+        done
+    done
 
     echo "== a 5 x 5 filter and its bias, map 256"
     for scene in torus2 table crowd; do
