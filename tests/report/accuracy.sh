@@ -5,9 +5,10 @@
 #     [METHODS='NAME...'] tests/report/accuracy.sh GNOMON TRUTH_FOLDER SCENE_FOLDER FIGURES_CSV [SIZE...]
 #
 # TRUTH_FOLDER holds NAME.pgm for every NAME.scene of SCENE_FOLDER (tests/report/truth.sh makes them). FIGURES_CSV has the
-# columns scene,warp,map,method,false_shadow,false_light,total in per cent; `-` for scenes that have none. SIZEs of the
-# map: 64 128 256 512 1024 unless named. METHODS: names of tests/report/methods.sh; those of docs/accuracy.md unless
-# named. CSV=FILE in the environment also writes our figures there, in the same columns.
+# columns scene,warp,map,method,false_shadow,false_light,total in per cent; `-` for scenes that have none. A method that it
+# does not name is not compared. SIZEs of the map: 64 128 256 512 1024 unless named. METHODS: names of
+# tests/report/methods.sh; those of docs/accuracy.md unless named. CSV=FILE in the environment also writes our figures
+# there, in the same columns.
 #
 # Prints Markdown. Exit status: 0 all within the bar, 1 a cell or a mean is over it, 2 something could not be done.
 # The bar of a cell: the csv's total + max(0.05 points, 4 % of it); of a mean over the scenes: the csv's x 1.03 + 0.01.
@@ -29,7 +30,7 @@ shift 4
 sizes=${*:-64 128 256 512 1024}
 
 methods=${METHODS:-const:0.02 mid midc dual:0.02 dualc:0.02 sd2 sdf sdm:2 sd2+v3 sdf+v3 sdm:2+v3 dualct:2+v3 rpb:1:0.0005 \
-    slope:2:0.0005 first:1e-4+v3}
+    slope:2:0.0005 first:1e-4+v3 sdm:2+v3+sil4n}
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -23,7 +23,7 @@ fi
 gnomon=$1
 peer=$2
 shift 2
-methods=${METHODS:-constt:2 slope:2:0.0005 rpb:1:0.0005 dualct:2+v3 sd2+v3 sdm:2+v3 first:1e-4+v3}
+methods=${METHODS:-constt:2 slope:2:0.0005 rpb:1:0.0005 dualct:2+v3 sd2+v3 sdm:2+v3 first:1e-4+v3 sdm:2+v3+sil}
 sizes=${SIZES:-256 1024}
 
 work=$(mktemp -d)

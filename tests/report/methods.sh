@@ -3,7 +3,8 @@
 #
 # Names: those of figures.csv (docs/accuracy.md says what they mean). Behind plus signs a receiver (`+v3` virtual samples
 # where the texels about the point disagree, `+always` at every pixel) and a reconstruction (`+bilinear`, `+jitter4x4`,
-# `+pcf3` and so on). Any other word is a preset: --method WORD.
+# `+pcf3` and so on; `+sil4n` and `+sil` silhouette maps, of which figures.csv knows the first alone, as its `+sil4` lets
+# the last edge win; `+cross` crossing maps). Any other word is a preset: --method WORD.
 
 # surface_options NAME: of what stands before the first plus sign. Nothing for a preset.
 surface_options() {
@@ -38,7 +39,10 @@ receiver_of() {
 # reconstruction_of NAME
 reconstruction_of() {
     case $1 in
-    *+bilinear | *+jitter4x4 | *+pcf?) echo "${1##*+}" ;;
+    *+sil | *+sil4n) echo silhouette ;;
+    *+cross) echo crossing ;;
+    *+v3 | *+always) echo nearest ;;
+    *+*) echo "${1##*+}" ;; # what it does not know the simulator refuses
     *) echo nearest ;;
     esac
 }
