@@ -255,8 +255,8 @@ extern const gn_reconstruction gn_box_3x3, gn_box_5x5, gn_box_7x7; /* the texels
 /* A silhouette map (Sen, Cammarano & Hanrahan 2003): hard shadows whose borders follow the silhouettes of the meshes
  * through the texels, and not the texels' sides. The light pass draws the silhouette edges of all meshes into a map of
  * one byte a texel. Meshes need edges; of one without (a triangle soup) the edges of every triangle are drawn
- * where they separate depths, at up to a quarter more error. smooth: the same borders a quarter of a texel wide, in five
- * steps of light. docs/shadow-test.md. */
+ * where they separate depths, at up to a quarter more error. smooth: the same borders a quarter of a texel wide, in
+ * five steps of light. docs/shadow-test.md. */
 extern const gn_reconstruction gn_silhouettes, gn_silhouettes_smooth;
 
 /* A crossing map: the same end by the places where silhouettes cross the sides between texels, two to a byte, instead
