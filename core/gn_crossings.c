@@ -6,8 +6,8 @@
  * line between the crossings on its own sides; what is shadowed stays joined. Both cells of a side have the same
  * crossing on it: borders of shadows are continuous. What lies right of a line, or below it, has the line.
  *
- * The line test is exact. A corner of a shadow within a cell is cut off, by half the area between its crossings and
- * itself at most. Cost: only points on which texels disagree read the map, 3 bytes. */
+ * The line test is exact. A corner of a shadow within a cell is cut off along the line between its two
+ * crossings. Cost: only points on which texels disagree read the map, 3 bytes. */
 #include "gn_crossing_map.h"
 #include "gn_quadrants.h"
 

@@ -25,7 +25,8 @@ void gn_segment_rows(const gn_segment *segment, int32_t *first, int32_t *last)
     *last = gn_floor_shift(segment->y + segment->dy, 8);
 }
 
-int32_t gn_segment_share(int32_t d, int32_t t, int32_t length, int *rest)
+/* One for all: a division where it is called from costs flash. */
+GN_NOINLINE int32_t gn_segment_share(int32_t d, int32_t t, int32_t length, int *rest)
 {
     uint32_t size = d < 0 ? 0u - (uint32_t)d : (uint32_t)d;
     uint64_t n = gn_multiply_u((uint32_t)t, size);

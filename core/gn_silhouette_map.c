@@ -114,14 +114,15 @@ static void draw_cell(const gn_canvas *c, const gn_stroke *s, int32_t column, in
 {
     gn_segment_point p;
     gn_depth texel[4];
-    uint32_t caster, other;
+    uint32_t caster = 0, other = 0;
     gn_segment_in_cell(&s->segment, column, row, &p);
     uint32_t z = 2 * p.z, limit = z + c->reach < z ? 0xffffffffu : z + c->reach;
     find_texels(c, column, row, texel);
     if (is_hidden(texel, z))
         return;
-    find_sides(s, s->segment.x - 256 * column, s->segment.y - 256 * row, &caster, &other);
     uint32_t far_off = find_far(texel, limit);
+    if (far_off && far_off != 15) /* else nothing separates them */
+        find_sides(s, s->segment.x - 256 * column, s->segment.y - 256 * row, &caster, &other);
     int separates = (caster & ~far_off) && (other & far_off);
     if (s->alone && !separates)
         return;
@@ -158,9 +159,11 @@ static void draw(gn_context *context, uint32_t region, uint32_t worker)
     c.reach = context->drawn->reach;
     c.keys = context->drawn->keys + worker * region_texels(&context->plan, &context->settings);
     int32_t count = (c.end - c.first) * c.width;
+    uint8_t *map = c.map; /* bytes may alias the canvas */
+    gn_depth *keys = c.keys;
     for (int32_t i = 0; i < count; i++) {
-        c.map[i] = GN_CELL_CENTRE;
-        c.keys[i] = GN_FARTHEST;
+        map[i] = GN_CELL_CENTRE;
+        keys[i] = GN_FARTHEST;
     }
     gn_draw_silhouette_edges(context, &c);
 #if GN_STATISTICS

@@ -49,6 +49,7 @@ static const choice reconstructions[] = {
     {"pcf7", "&gn_box_7x7", &gn_box_7x7},
     {"silhouette", "&gn_silhouettes", &gn_silhouettes},
     {"silhouette-smooth", "&gn_silhouettes_smooth", &gn_silhouettes_smooth},
+    {"crossing", "&gn_crossings", &gn_crossings},
 };
 
 const choices choices_shadow = TABLE(shadows), choices_cull = TABLE(culls), choices_layers = TABLE(layers),
@@ -71,8 +72,9 @@ int choices_use_slope(const gn_settings *settings)
 
 int choices_have_silhouettes(const gn_settings *settings)
 {
+    const gn_reconstruction *how = settings->reconstruction;
     return settings->shadow == GN_SHADOW_MAP &&
-           (settings->reconstruction == &gn_silhouettes || settings->reconstruction == &gn_silhouettes_smooth);
+           (how == &gn_silhouettes || how == &gn_silhouettes_smooth || how == &gn_crossings);
 }
 
 int choices_use_edges(const gn_settings *settings)

@@ -31,7 +31,8 @@ int choices_number(const choices *of, const void *object);
 /* Is settings->slope of use: for the virtual surface, for the receiver, or for both? */
 int choices_use_slope(const gn_settings *settings);
 
-/* Does the light pass make a silhouette map? Shadow volumes, which have no map at all, say nothing of one. */
+/* Does the light pass make a silhouette map, or one of crossings? Shadow volumes, which have no map at all, say nothing
+ * of one. */
 int choices_have_silhouettes(const gn_settings *settings);
 
 /* Are meshes to have their edges: for shadow volumes, or for silhouettes? */

@@ -373,6 +373,10 @@ static int render(job *j)
         return problem_of_usage(&j->why,
                                 "--silhouettes, but no silhouette map is made; expected --method silhouette, or "
                                 "--reconstruct silhouette with another method that has a shadow map");
+    if (j->values[OUTPUT_SILHOUETTES] && j->settings.reconstruction == &gn_crossings)
+        return problem_of_usage(&j->why,
+                                "--silhouettes, but the map is one of crossings; expected --method silhouette, or "
+                                "--reconstruct silhouette");
     if (j->values[OUTPUT_SECOND_DEPTH] && j->frame.layer_count < 2)
         return problem_of_usage(&j->why,
                                 "--second-depth, but the method keeps one layer; expected a method with two layers");

@@ -263,8 +263,10 @@ stage_hash frame_hash_silhouettes(const frame *f)
     stage_hash hash = stage_hash_init();
     uint32_t stride;
     const uint8_t *map = gn_silhouette_map(f->context, &stride);
-    for (size_t row = 0; map && row + 1 < f->settings.map_height; row++)
-        for (size_t column = 0; column + 1 < f->settings.map_width; column++)
+    size_t beyond = map != 0; /* the last row and column have no cells, but sides */
+    map = map ? map : gn_crossing_map(f->context, &stride);
+    for (size_t row = 0; map && row + beyond < f->settings.map_height; row++)
+        for (size_t column = 0; column + beyond < f->settings.map_width; column++)
             hash = stage_hash_u8(hash, map[row * stride + column]);
     return hash;
 }

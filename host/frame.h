@@ -35,7 +35,7 @@ void frame_close(frame *f);
 /* Hashes of the stages (host/stage_hash.h); layers and map need keep_layers, the others colour and mask. */
 stage_hash frame_hash_layers(const frame *f);
 stage_hash frame_hash_map(const frame *f);
-/* Of the cells between texels; 0 cells where there is no silhouette map. */
+/* Of the cells between texels, or of all texels of a map of crossings; of nothing where there is neither. */
 stage_hash frame_hash_silhouettes(const frame *f);
 stage_hash frame_hash_mask(const frame *f);
 stage_hash frame_hash_colour(const frame *f);

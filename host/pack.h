@@ -14,7 +14,7 @@
  *                    3 virtual-always
  *         40      8  bias; slope (32 bits each)
  *         48      4  reconstruction: 0 nearest, 1 bilinear, 2 jitter4x4, 3 pcf3, 4 pcf5, 5 pcf7, 6 silhouette,
- *                    7 silhouette-smooth; three zero bytes
+ *                    7 silhouette-smooth, 8 crossing; three zero bytes
  *         52     68  camera: projection, three zero bytes; eye, right, up, forward (3 x 32 bits each); tan_half,
  *                    half_height, near_depth, far_depth (32 bits each)
  *        120     88  light: kind, three zero bytes; right, up, forward (3 x 32 bits each); box_u, box_v, box_z,

@@ -69,7 +69,9 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
      "the 4 texels about the point; jitter4x4, of 16, one of each cell; pcf3,\n" \
      "pcf5, pcf7, of so many texels squared. silhouette: hard borders along the\n" \
      "meshes' silhouettes through the texels, from a second map of a byte a texel;\n" \
-     "silhouette-smooth: the same borders in five steps, a quarter of a texel wide"}, \
+     "silhouette-smooth: the same borders in five steps, a quarter of a texel wide;\n" \
+     "crossing: hard borders as well, from where silhouettes cross the ways between\n" \
+     "texels"}, \
     {0, 0, "Sizes (the scene file has defaults):"}, \
     {"--map", "N", "the shadow map's size: N or WxH, each from 1 to 4096"}, \
     {"--size", "WxH", "the image's size, each from 1 to 4096"}

@@ -112,6 +112,8 @@ silhouette
 silhouette --receiver point
 constant --receiver virtual-always --reconstruct silhouette
 midpoint --reconstruct silhouette-smooth
+mixed --receiver virtual --reconstruct crossing
+second-depth --reconstruct crossing
 END
 
 # Methods are presets; what is named beside them wins.
@@ -284,6 +286,15 @@ $(count_of pixels_silhouette "$folder/sil.json") pixels decided by them, [0-9.]*
 check "bench_takes_silhouettes" sh -c "'$gnomon' bench '$scene' --runs 1 --size 40x30 --map 32 --method silhouette \
     --json '$folder/bench.json' | grep -q 'receiver virtual, reconstruction silhouette, region' &&
     grep -q '\"reconstruction\": \"silhouette\"' '$folder/bench.json'"
+hash_of "$scene" --method silhouette --reconstruct crossing --stats "$folder/cross.json" --map 40 --size 8x6 >"$folder/crossed"
+check "crossings_have_a_hash" sh -c "[ \$(grep -cE '^silhouettes [0-9a-f]{16}$' '$folder/crossed') = 1 ] &&
+    grep -q \$(sed -n 's/^silhouettes //p' '$folder/crossed') '$folder/cross.json'"
+check "which_is_not_that_of_silhouettes" test "$(sed -n 's/^silhouettes //p' "$folder/crossed")" != \
+    "$(sed -n 's/^silhouettes //p' "$folder/printed")"
+"$gnomon" render "$scene" --method silhouette --reconstruct crossing --stats "$folder/cross.json" --map 40 --size 8x6
+check "their_map_takes_a_byte_a_texel" agrees silhouettes '40 * 40' "$folder/cross.json"
+check "of_the_same_edges" test "$(count_of silhouette_edges "$folder/cross.json")" = "$(count_of silhouette_edges "$folder/sil.json")"
+check "texels_with_crossings_are_counted" test "$(count_of silhouette_texels "$folder/cross.json")" -gt 30
 check "a_scene_is_packed_with_silhouettes" status 0 pack "$scene" -o "$folder/sil.gno" --method silhouette
 check "which_has_the_hashes_of_the_method" same_hashes "$(hash_of "$scene" --method silhouette)" "$(hash_of "$folder/sil.gno")"
 check "its_edges_serve_volumes" same_hashes "$(hash_of "$scene" --method volumes)" "$(hash_of "$folder/sil.gno" --method volumes)"
@@ -360,6 +371,7 @@ reconstruct pcf5 gn_box_5x5
 reconstruct pcf7 gn_box_7x7
 reconstruct silhouette gn_silhouettes
 reconstruct silhouette-smooth gn_silhouettes_smooth
+reconstruct crossing gn_crossings
 END
 check "a_point_and_a_nearest_texel_are_not_named_in_c" sh -c "'$gnomon' pack '$scene' -o '$folder/none.h' --method dual &&
     grep -q GN_DUAL '$folder/none.h' && ! grep -qE 'slope|receiver|reconstruction' '$folder/none.h'"
@@ -421,7 +433,7 @@ check "nothing_to_write_is_refused" refuses "nothing to write" render "$scene"
 check "an_option_without_its_value_is_refused" refuses "lacks its value" render "$scene" -o
 check "an_option_given_twice_is_refused" refuses "given twice" render "$scene" --map 8 --map=9 -o "$folder/new.ppm"
 check "an_unknown_method_is_refused" refuses "--method best" render "$scene" --method best -o "$folder/new.ppm"
-check "pcf9_is_refused" refuses "--reconstruct pcf9; expected one of: nearest, bilinear, jitter4x4, pcf3, pcf5, pcf7, silhouette, silhouette-smooth" \
+check "pcf9_is_refused" refuses "--reconstruct pcf9; expected one of: nearest, bilinear, jitter4x4, pcf3, pcf5, pcf7, silhouette, silhouette-smooth, crossing" \
     render "$scene" --reconstruct pcf9 -o "$folder/new.ppm"
 for method in mixed auto adaptive volumes; do
     check "silhouettes_of_${method}_are_refused" refuses "--silhouettes, but no silhouette map is made; expected --method silhouette" \
@@ -429,6 +441,8 @@ for method in mixed auto adaptive volumes; do
 done
 check "silhouettes_of_a_filter_are_refused" refuses "expected --method silhouette, or --reconstruct silhouette" render "$scene" \
     --method silhouette --reconstruct pcf3 --silhouettes "$folder/new.ppm"
+check "crossings_have_no_picture" refuses "the map is one of crossings; expected --method silhouette, or --reconstruct silhouette" \
+    render "$scene" --method silhouette --reconstruct crossing --silhouettes "$folder/new.ppm"
 check "grey_silhouettes_are_refused" refuses "expected .ppm" render "$scene" --method silhouette --silhouettes "$folder/new.pgm"
 check "silhouettes_in_a_missing_folder_are_refused" refuses "cannot be written" render "$scene" --method silhouette \
     --silhouettes "$folder/none/new.ppm" -o "$folder/new.ppm"
@@ -453,7 +467,7 @@ for slope in 64.00001 -0.1 2x ''; do
     check "a_slope_of_${slope:-nothing_at_all}_is_refused" refuses "--slope $slope; expected a number from 0 to 64" render "$scene" \
         --method slope --slope "$slope" -o "$folder/new.ppm"
 done
-for option in '--receiver virtual' '--reconstruct pcf3' '--reconstruct silhouette' '--slope 2'; do
+for option in '--receiver virtual' '--reconstruct pcf3' '--reconstruct silhouette' '--reconstruct crossing' '--slope 2'; do
     # shellcheck disable=SC2086 # the option and its value
     check "$(echo "$option" | tr ' ' '_')_with_volumes_is_refused" refuses "${option% *} has no meaning for shadow volumes" \
         render "$scene" --method volumes $option -o "$folder/new.ppm"
