@@ -72,7 +72,7 @@ static void count_stages(const gn_context *context, gn_worker *worker, const gn_
         s->pixels_virtual += (uint32_t)resampled;
         s->pixels_fractional += (uint32_t)fractional;
         s->pixels_silhouette += (uint32_t)reconstructed;
-        s->texels_read += voted * how->votes + (resampled ? how->samples : 0);
+        s->texels_read += voted * how->votes + (resampled || reconstructed ? how->samples : 0);
         s->virtual_samples += resampled ? how->samples : 0;
     }
 }

@@ -137,11 +137,8 @@ struct gn_reconstruction {
     const gn_drawing *drawing; /* what the light pass draws for it beside depths; 0: nothing */
 };
 
-/* What the light pass draws beside depths, or 0. */
-GN_INLINE const gn_drawing *gn_find_drawing(const gn_settings *settings)
-{
-    return settings->shadow == GN_SHADOW_MAP && settings->reconstruction ? settings->reconstruction->drawing : 0;
-}
+/* gn_plan.c: what the light pass draws beside depths, or 0. */
+const gn_drawing *gn_find_drawing(const gn_settings *settings);
 
 /* Test count pixels of a row, from worker->q[from] on: what gn_shade_row does, with the settings' receiver and
  * reconstruction; worker->fraction: the lit parts of 254. */

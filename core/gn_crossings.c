@@ -62,16 +62,10 @@ static uint32_t find_texel(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t 
 
 static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
-    uint32_t u = points->u[i], v = points->v[i];
-    if (GN_UNLIKELY(!gn_has_cell(l, u, v)))
-        return gn_sample_nearest(l, points, i, plane);
-    uint32_t dark = gn_find_corners(l, u, v, plane);
-    if (dark == 0 || dark == 15)
-        return dark ? GN_DARK : 0;
-#if GN_STATISTICS
-    points->reconstructed[i] = 1;
-#endif
-    return dark >> find_texel(l, u, v, dark) & 1 ? GN_DARK : 0;
+    uint32_t dark;
+    if (!gn_disagree(l, points, i, plane, &dark))
+        return dark;
+    return dark >> find_texel(l, points->u[i], points->v[i], dark) & 1 ? GN_DARK : 0;
 }
 
 const gn_reconstruction gn_crossings = {gn_cascade_row, gn_vote_around,    sample, gn_colour_row, GN_DARK, 4, 4,

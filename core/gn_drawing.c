@@ -10,7 +10,7 @@ gn_status gn_check_drawing(const gn_scene *scene)
     for (uint32_t o = 0; o < scene->object_count; o++) {
         const gn_mesh *mesh = scene->objects[o].mesh;
         /* instances of one mesh mostly follow each other: check it once */
-        if (!mesh->edges || (o && mesh == scene->objects[o - 1].mesh))
+        if ((!mesh->edges && !mesh->edge_count) || (o && mesh == scene->objects[o - 1].mesh))
             continue;
         gn_status status = gn_check_edges(mesh);
         if (status != GN_OK)
@@ -19,17 +19,15 @@ gn_status gn_check_drawing(const gn_scene *scene)
     return GN_OK;
 }
 
-uint64_t gn_lay_out_drawn(gn_context *context, uint64_t used, const gn_scene *scene, const gn_settings *settings)
+uint64_t gn_lay_out_drawn(gn_context *context, uint64_t used, const gn_settings *settings)
 {
     uint8_t *base = (uint8_t *)context;
     uint64_t bytes = (uint64_t)settings->map_width * settings->map_height;
-    (void)scene;
     gn_drawn *drawn = gn_take(base, &used, sizeof *drawn);
     uint8_t *map = gn_take(base, &used, bytes);
     if (context) {
         context->drawn = drawn;
         drawn->map = map;
-        drawn->map_bytes = (uint32_t)bytes;
         drawn->count = 0;
     }
     return used;

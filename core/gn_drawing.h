@@ -4,6 +4,9 @@
  * The depths are the nearest layer's, before it is resolved. A region that ends within the map draws the nearest depths
  * of the row after it once more for its last row of cells.
  *
+ * Not drawn: the border of what a spot light's near plane cuts off, which is no edge of a mesh. An edge of more than
+ * two triangles is drawn pair by pair, even where the sum over all of them is no silhouette.
+ *
  * Memory: a byte a texel that stays; during the light pass a row of depths a worker, 2 bits a triangle and a bit an
  * edge. */
 #ifndef GN_DRAWING_H
@@ -18,7 +21,7 @@ struct gn_drawing {
     gn_status (*check)(const gn_scene *scene);
     /* Take from the block, beginning at used, what stays between the passes, or what is needed in the light pass, and
      * return the sum. With a null context count alone. */
-    uint64_t (*lay_out_head)(gn_context *context, uint64_t used, const gn_scene *scene, const gn_settings *settings);
+    uint64_t (*lay_out_head)(gn_context *context, uint64_t used, const gn_settings *settings);
     uint64_t (*lay_out_light)(gn_context *context, uint64_t used, const gn_plan *plan, const gn_settings *settings);
     gn_status (*begin)(gn_context *context);
     /* when the layers of a region are drawn, before they are resolved */
@@ -27,19 +30,18 @@ struct gn_drawing {
 
 /* What the context keeps for it. */
 struct gn_drawn {
-    uint8_t *map;       /* a byte a texel, rows as long as the map is wide */
-    gn_depth *keys;     /* gn_silhouette_map.c, light pass: rank of the points that won; a region's a worker */
-    uint32_t reach;     /* gn_silhouette_map.c, light pass: of 2^32 */
-    gn_depth *row;      /* light pass: the row after a region; one a worker */
-    uint8_t *facings;   /* light pass: gn_find_facings */
-    uint32_t *chosen;   /* light pass: a bit an edge of the scene, 1: a silhouette */
-    uint32_t count;     /* of silhouettes */
-    uint32_t map_bytes; /* of map */
+    uint8_t *map;     /* a byte a texel, rows as long as the map is wide */
+    gn_depth *keys;   /* gn_silhouette_map.c, light pass: rank of the points that won; a region's a worker */
+    uint32_t reach;   /* gn_silhouette_map.c, light pass: of 2^32 */
+    gn_depth *row;    /* light pass: the row after a region; one a worker */
+    uint8_t *facings; /* light pass: gn_find_facings */
+    uint32_t *chosen; /* light pass: a bit an edge of the scene, 1: a silhouette */
+    uint32_t count;   /* of silhouettes */
 };
 
 /* The hooks that serve any of them: check, lay_out_head, lay_out_light, begin. */
 gn_status gn_check_drawing(const gn_scene *scene);
-uint64_t gn_lay_out_drawn(gn_context *context, uint64_t used, const gn_scene *scene, const gn_settings *settings);
+uint64_t gn_lay_out_drawn(gn_context *context, uint64_t used, const gn_settings *settings);
 uint64_t gn_lay_out_drawing(gn_context *context, uint64_t used, const gn_plan *plan, const gn_settings *settings);
 gn_status gn_begin_drawing(gn_context *context);
 

@@ -144,6 +144,11 @@ void *gn_take(uint8_t *base, uint64_t *used, uint64_t bytes)
     return p;
 }
 
+const gn_drawing *gn_find_drawing(const gn_settings *settings)
+{
+    return settings->shadow == GN_SHADOW_MAP && settings->reconstruction ? settings->reconstruction->drawing : 0;
+}
+
 /* Texels from one row of the map to the next. */
 static uint32_t map_stride(const gn_settings *settings)
 {
@@ -204,7 +209,7 @@ static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const g
     }
     const gn_drawing *drawing = gn_find_drawing(settings);
     if (drawing)
-        used = drawing->lay_out_head(context, used, scene, settings);
+        used = drawing->lay_out_head(context, used, settings);
     if (volumes)
         used += lay_out_volumes(context, used, plan, settings);
     if (context)

@@ -24,13 +24,33 @@ GN_INLINE uint32_t gn_find_corners(const gn_lookup *l, uint32_t u, uint32_t v, c
     return dark;
 }
 
+/* Do the texels about point i disagree on a plane? Then *dark has the corners, else the shares of a single texel. */
+GN_INLINE int gn_disagree(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane, uint32_t *dark)
+{
+    uint32_t u = points->u[i], v = points->v[i];
+    if (GN_UNLIKELY(!gn_has_cell(l, u, v))) {
+        *dark = gn_sample_nearest(l, points, i, plane);
+        return 0;
+    }
+    *dark = gn_find_corners(l, u, v, plane);
+    if (*dark == 0 || *dark == 15) {
+        *dark = *dark ? GN_DARK : 0;
+        return 0;
+    }
+#if GN_STATISTICS
+    points->reconstructed[i] = 1;
+#endif
+    return 1;
+}
+
 /* The point of a cell, by its index in the map; above and left of the first cell there is none. */
 GN_INLINE uint32_t gn_cell_at(const gn_lookup *l, int32_t at)
 {
     return at < 0 ? GN_CELL_CENTRE : l->silhouettes[at];
 }
 
-/* The texel in whose quadrant a place lies: 1 right, + 2 below. */
+/* The texel in whose quadrant a place lies: 1 right, + 2 below. A place on a line is right of it, or below, as a place
+ * half-way between two texels is the next one's. */
 GN_INLINE uint32_t gn_find_quadrant(const gn_lookup *l, uint32_t u, uint32_t v)
 {
     int32_t width = (int32_t)l->last_column + 1, at = (int32_t)(v >> l->bits) * width + (int32_t)(u >> l->bits);
@@ -43,7 +63,7 @@ GN_INLINE uint32_t gn_find_quadrant(const gn_lookup *l, uint32_t u, uint32_t v)
     other = gn_cell_at(l, right ? at + 1 : at - 1);
     int32_t dx = (int32_t)(other & 15) - px + (right ? 16 : -16), dy = (int32_t)(other >> 4) - py;
     int32_t side = dx * y - dy * x;
-    int below = right ? side > 0 : side < 0;
+    int below = right ? side >= 0 : side <= 0;
     if (below ? y <= 0 : y >= 0)
         return (uint32_t)right | (uint32_t)below << 1; /* the line down or up does not come here */
     other = gn_cell_at(l, below ? at + width : at - width);

@@ -32,15 +32,9 @@ GN_INLINE uint32_t move(uint32_t place, int32_t distance, uint32_t bits)
 
 static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
-    uint32_t u = points->u[i], v = points->v[i], shadowed = 0;
-    if (!gn_has_cell(l, u, v))
-        return gn_sample_nearest(l, points, i, plane) ? PLACES : 0;
-    uint32_t dark = gn_find_corners(l, u, v, plane);
-    if (dark == 0 || dark == 15)
+    uint32_t u = points->u[i], v = points->v[i], dark, shadowed = 0;
+    if (!gn_disagree(l, points, i, plane, &dark))
         return dark ? PLACES : 0;
-#if GN_STATISTICS
-    points->reconstructed[i] = 1;
-#endif
     int32_t across = 1 << (l->bits - 3), along = across / 3; /* 1/8 texel, and a third of it */
     const int32_t dx[PLACES] = {-along, across, along, -across}, dy[PLACES] = {-across, -along, across, along};
     for (int k = 0; k < PLACES; k++)

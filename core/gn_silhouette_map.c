@@ -10,6 +10,9 @@
  * Found by measurement (docs/accuracy.md). */
 enum { REACH = 4 };
 
+/* The end of the depths before an empty texel's. */
+#define LAST (((uint32_t)GN_FARTHEST << (32 - GN_DEPTH_BITS)) - 1)
+
 /* ---- planning ---------------------------------------------------------------------------------------------------- */
 
 /* Of a region, without padding. */
@@ -116,7 +119,9 @@ static void draw_cell(const gn_canvas *c, const gn_stroke *s, int32_t column, in
     gn_depth texel[4];
     uint32_t caster = 0, other = 0;
     gn_segment_in_cell(&s->segment, column, row, &p);
-    uint32_t z = 2 * p.z, limit = z + c->reach < z ? 0xffffffffu : z + c->reach;
+    uint32_t z = 2 * p.z, limit = z + c->reach;
+    if (limit < z || limit > LAST)
+        limit = LAST;
     find_texels(c, column, row, texel);
     if (is_hidden(texel, z))
         return;
@@ -176,7 +181,7 @@ const gn_drawing gn_draw_silhouettes = {gn_check_drawing, gn_lay_out_drawn, lay_
 
 const uint8_t *gn_silhouette_map(const gn_context *context, uint32_t *stride)
 {
-    if (!context || gn_find_drawing(&context->settings) != &gn_draw_silhouettes)
+    if (!context || context->phase == GN_PHASE_NONE || gn_find_drawing(&context->settings) != &gn_draw_silhouettes)
         return 0;
     *stride = context->settings.map_width;
     return context->drawn->map;

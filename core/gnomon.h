@@ -245,7 +245,7 @@ extern const gn_receiver gn_virtual;    /* where the texels about the point disa
 extern const gn_receiver gn_virtual_always; /* that depth at every pixel */
 
 /* The reconstruction: what is made of the comparisons. Each is linked only where it is named; none (0): the texel that
- * holds the point decides. All others give a fraction of light, in 254 steps, by percentage-closer filtering (Reeves et
+ * holds the point decides. Filters give a fraction of light, in 254 steps, by percentage-closer filtering (Reeves et
  * al. 1987): comparisons are weighted, never depths. Texels beyond the map are those of its border. */
 typedef struct gn_reconstruction gn_reconstruction;
 extern const gn_reconstruction gn_bilinear;   /* the four texels about the point, by its place between them */
@@ -402,14 +402,15 @@ gn_status gn_volumes_region(gn_context *context, uint32_t region, uint32_t worke
 /* ---- statistics (GN_STATISTICS 1) ------------------------------------------------------------------------------ */
 
 typedef struct gn_statistics {
-    uint64_t light_triangles;  /* set up in the light pass, each region counted */
-    uint64_t light_texels;     /* covered by them */
+    uint64_t
+        light_triangles;   /* set up in the light pass, each region counted, with silhouettes also the row after it */
+    uint64_t light_texels; /* covered by them */
     uint64_t camera_triangles; /* set up in the camera pass, each region counted */
     uint64_t camera_fragments; /* covered by them */
     uint64_t pixels_shaded;    /* pixels that see a surface */
     uint64_t pixels_tested;    /* of them, turned to the light: looked up in the map, or counted in volumes */
     /* With a receiver or a reconstruction, how far down the cascade of docs/shadow-test.md: outside, agreed and virtual
-     * make up pixels_tested, but for fractions by a point's own depth. */
+     * make up pixels_tested, but for fractions and silhouettes by a point's own depth. */
     uint64_t pixels_outside;               /* of the light's box or frustum: no texel read */
     uint64_t pixels_agreed;                /* all texels agreed on the point's depth */
     uint64_t pixels_virtual;               /* decided by virtual samples */

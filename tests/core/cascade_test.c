@@ -4,6 +4,7 @@
  * and statistics then have to be the twin's. Cases: 80000 views, fewer in slower builds, or GNOMON_CASES. */
 #include "gn_cascade.h"
 #include "points.h"
+#include "quadrants.h"
 #include "scenes.h"
 
 #include <math.h>
@@ -14,13 +15,14 @@ typedef long double real;
 
 /* ---- what can be chosen ---------------------------------------------------------------------------------------- */
 
-typedef enum filter { NEAREST, BILINEAR, JITTER, BOX_3, BOX_5, BOX_7, FILTERS } filter;
+typedef enum filter { NEAREST, BILINEAR, JITTER, BOX_3, BOX_5, BOX_7, SILHOUETTES, SMOOTH, FILTERS } filter;
 typedef enum receiver { POINT, PLANE_BIAS, THREE_WAY, ALWAYS, RECEIVERS } receiver;
 
-static const gn_reconstruction *const reconstructions[FILTERS] = {0,           &gn_bilinear, &gn_jitter_4x4,
-                                                                  &gn_box_3x3, &gn_box_5x5,  &gn_box_7x7};
+static const gn_reconstruction *const reconstructions[FILTERS] = {
+    0, &gn_bilinear, &gn_jitter_4x4, &gn_box_3x3, &gn_box_5x5, &gn_box_7x7, &gn_silhouettes, &gn_silhouettes_smooth};
 static const gn_receiver *const receivers[RECEIVERS] = {0, &gn_plane_bias, &gn_virtual, &gn_virtual_always};
-static const char *const filter_names[FILTERS] = {"nearest", "bilinear", "4x4 jitter", "3x3 box", "5x5 box", "7x7 box"};
+static const char *const filter_names[FILTERS] = {"nearest", "bilinear", "4x4 jitter",  "3x3 box",
+                                                  "5x5 box", "7x7 box",  "silhouettes", "smooth silhouettes"};
 static const char *const receiver_names[RECEIVERS] = {"point", "plane bias", "virtual", "virtual always"};
 
 /* ---- the twin -------------------------------------------------------------------------------------------------- */
@@ -154,6 +156,7 @@ static vote vote_of_four(const tested *t, const point *p)
 typedef struct verdict {
     int lit, whole; /* shares */
     int outside, resampled, depths, virtual_depths;
+    int reconstructed; /* by silhouettes */
 } verdict;
 
 static uint32_t less(uint32_t z, uint64_t bias)
@@ -161,11 +164,57 @@ static uint32_t less(uint32_t z, uint64_t bias)
     return z > bias ? (uint32_t)(z - bias) : 0;
 }
 
+/* A cell of the silhouette map; beyond it there are centres. */
+static uint8_t cell_at(const gn_context *context, int64_t column, int64_t row)
+{
+    uint32_t stride;
+    const uint8_t *map = gn_silhouette_map(context, &stride);
+    int exists =
+        column >= 0 && row >= 0 && column < context->settings.map_width - 1 && row < context->settings.map_height - 1;
+    return exists ? map[row * stride + column] : 0x88;
+}
+
+/* Lit shares where the four texels about a point disagree: the texel in whose quadrant it lies, or four places about
+ * it. In the border's outer half texel there is no cell. */
+static int by_silhouettes(filter how, const tested *t, const point *p, verdict *v)
+{
+    const gn_settings *s = &t->context->settings;
+    int64_t one = (int64_t)1 << p->bits, x = p->u - one / 2, y = p->v - one / 2;
+    int64_t column = floor_divide(x, one), row = floor_divide(y, one);
+    int corner[4], sum = 0, line, shares = how == SMOOTH ? 4 : 1;
+    v->whole = shares;
+    if (column < 0 || row < 0 || column >= s->map_width - 1 || row >= s->map_height - 1)
+        return shares * is_lit(t, floor_divide(p->u, one), floor_divide(p->v, one));
+    for (int i = 0; i < 4; i++)
+        sum += corner[i] = is_lit(t, column + i % 2, row + i / 2);
+    if (sum == 0 || sum == 4)
+        return sum ? shares : 0;
+    uint8_t cells[5] = {cell_at(t->context, column, row), cell_at(t->context, column + 1, row),
+                        cell_at(t->context, column, row + 1), cell_at(t->context, column - 1, row),
+                        cell_at(t->context, column, row - 1)};
+    v->reconstructed = 1;
+    x -= column * one;
+    y -= row * one;
+    if (how == SILHOUETTES)
+        return corner[find_region(cells, p->bits, x, y, &line)];
+    sum = 0;
+    for (int i = 0; i < 4; i++) {
+        vector place = find_one_of_four(i, p->bits, x, y);
+        sum += corner[find_region(cells, p->bits, place.x, place.y, &line)];
+    }
+    return sum;
+}
+
+static int is_drawn(filter how)
+{
+    return how == SILHOUETTES || how == SMOOTH;
+}
+
 static verdict judge(gn_context *context, filter how, receiver who, const point *p, uint32_t triangle, int32_t x,
                      int32_t y)
 {
-    static const int depths[FILTERS] = {1, 4, 16, 9, 25, 49};
-    verdict v = {0, 1, 0, 0, 0, 0};
+    static const int depths[FILTERS] = {1, 4, 16, 9, 25, 49, 4, 4};
+    verdict v = {0, 1, 0, 0, 0, 0, 0};
     const gn_receiver_plane *plane = who == POINT ? 0 : gn_find_plane(context, &context->workers[0], triangle);
     tested t = {context, 0, p->z};
     if (p->where != ON_MAP) {
@@ -182,7 +231,13 @@ static verdict judge(gn_context *context, filter how, receiver who, const point 
     if (who == THREE_WAY)
         t.z = less(p->z, GN_POINT_ERROR);
     int open = who == ALWAYS;
-    if (!open && who == THREE_WAY && how == NEAREST) {
+    if (!open && is_drawn(how)) {
+        vote by = vote_of_four(&t, p);
+        v.whole = how == SMOOTH ? 4 : 1;
+        v.lit = by == ALL_LIT ? v.whole : by == MIXED && who != THREE_WAY ? by_silhouettes(how, &t, p, &v) : 0;
+        v.depths = depths[how];
+        open = by == MIXED && who == THREE_WAY;
+    } else if (!open && who == THREE_WAY && how == NEAREST) {
         vote by = vote_of_four(&t, p);
         v.lit = by == ALL_LIT;
         v.depths = 4;
@@ -196,7 +251,7 @@ static verdict judge(gn_context *context, filter how, receiver who, const point 
         gn_wide_plane nearer = plane->plane;
         nearer.base -= plane->slack;
         t.plane = plane->exists ? &nearer : 0;
-        v.lit = filtered(how, &t, p, x, y, &v.whole);
+        v.lit = is_drawn(how) ? by_silhouettes(how, &t, p, &v) : filtered(how, &t, p, x, y, &v.whole);
         v.resampled = 1;
         v.virtual_depths = depths[how];
         v.depths += depths[how];
@@ -335,12 +390,23 @@ static void disturb(gn_context *context, const uint32_t *triangle, int32_t pixel
         }
 }
 
+/* Any byte in any cell, or what was drawn. */
+static void disturb_cells(gn_context *context)
+{
+    uint32_t stride;
+    uint8_t *map = (uint8_t *)(uintptr_t)gn_silhouette_map(context, &stride);
+    for (uint32_t row = 0; row + 1 < context->settings.map_height; row++)
+        for (uint32_t column = 0; column + 1 < context->settings.map_width; column++)
+            if (between(0, 1))
+                map[row * stride + column] = (uint8_t)between(0, 255);
+}
+
 /* ---- masks and statistics -------------------------------------------------------------------------------------- */
 
 typedef struct tally {
     unsigned failures;
     uint64_t views[RECEIVERS][FILTERS];
-    uint64_t pixels, lit, shadowed, partly, outside, resampled, unseen, away;
+    uint64_t pixels, lit, shadowed, partly, outside, resampled, reconstructed, unseen, away;
     uint64_t spots, trusted, boxes, orthographic, coarse, at_border, wide, odd;
 } tally;
 
@@ -393,8 +459,11 @@ static void compare_pixels(const view *v, frame *f, const uint32_t *q, const uin
         expected->pixels_outside += (uint64_t)e.outside;
         expected->pixels_virtual += (uint64_t)e.resampled;
         expected->pixels_fractional += (uint64_t)partly;
-        expected->pixels_agreed += (uint64_t)(!e.outside && !e.resampled && !partly);
-        expected->texels_read += (uint64_t)e.depths;
+        expected->pixels_silhouette += (uint64_t)e.reconstructed;
+        expected->pixels_agreed += (uint64_t)(!e.outside && !e.resampled && !partly && !e.reconstructed);
+        count->reconstructed += (uint64_t)e.reconstructed;
+        /* without virtual samples the texels are compared once more */
+        expected->texels_read += (uint64_t)e.depths + (e.reconstructed && !e.resampled ? 4 : 0);
         expected->virtual_samples += (uint64_t)e.virtual_depths;
         count->pixels++;
         count->lit += e.lit == e.whole;
@@ -436,10 +505,11 @@ static void compare_statistics(const view *v, const frame *f, uint64_t n, const 
                same_count("pixels_agreed", s.pixels_agreed, e->pixels_agreed, v, n) &&
                same_count("pixels_virtual", s.pixels_virtual, e->pixels_virtual, v, n) &&
                same_count("pixels_fractional", s.pixels_fractional, e->pixels_fractional, v, n) &&
+               same_count("pixels_silhouette", s.pixels_silhouette, e->pixels_silhouette, v, n) &&
                same_count("texels_read", s.texels_read, e->texels_read, v, n) &&
                same_count("virtual_samples", s.virtual_samples, e->virtual_samples, v, n);
     uint64_t sum = s.pixels_outside + s.pixels_agreed + s.pixels_virtual;
-    sum += v->who == THREE_WAY || v->who == ALWAYS ? 0 : s.pixels_fractional;
+    sum += v->who == THREE_WAY || v->who == ALWAYS ? 0 : is_drawn(v->how) ? s.pixels_silhouette : s.pixels_fractional;
     good = good && same_count("the sum over stages", sum, s.pixels_tested, v, n);
     count->failures += !good;
 #else
@@ -476,6 +546,8 @@ static void compare_view(uint64_t n, tally *count)
         memcpy(triangle, context->workers[0].triangle, (size_t)pixels * 4);
         if (v.who != POINT)
             disturb(context, triangle, pixels);
+        if (is_drawn(v.how))
+            disturb_cells(context);
         status = gn_camera_region(context, 0, 0, 0, f.mask, &region);
         compare_pixels(&v, &f, q, triangle, n, &expected, &odd, count);
         if (!odd)
@@ -509,14 +581,15 @@ static void masks_are_the_definition(uint64_t cases)
     ok(!count.failures, "masks and statistics are the definition's, in %llu views, %llu pixels",
        (unsigned long long)views, (unsigned long long)count.pixels);
     ok(views > cases * 3 / 4 && fewest > cases / 60 && count.lit > 2 * cases && count.shadowed > cases &&
-           count.partly > 2 * cases && count.resampled > 2 * cases && count.outside > cases &&
-           count.unseen > 5 * cases && count.away > 2 * cases && count.at_border > cases && ties > cases &&
-           misses > cases / 8,
-       "%llu pixels lit, %llu shadowed, %llu partly lit, %llu by virtual samples, %llu outside, %llu at the border; "
+           count.partly > 2 * cases && count.resampled > 2 * cases && count.reconstructed > cases / 2 &&
+           count.outside > cases && count.unseen > 5 * cases && count.away > 2 * cases && count.at_border > cases &&
+           ties > cases && misses > cases / 8,
+       "%llu pixels lit, %llu shadowed, %llu partly lit, %llu by virtual samples, %llu by silhouettes, %llu outside, "
+       "%llu at the border; "
        "%llu comparisons of equal depths, %llu one unit behind",
        (unsigned long long)count.lit, (unsigned long long)count.shadowed, (unsigned long long)count.partly,
-       (unsigned long long)count.resampled, (unsigned long long)count.outside, (unsigned long long)count.at_border,
-       (unsigned long long)ties, (unsigned long long)misses);
+       (unsigned long long)count.resampled, (unsigned long long)count.reconstructed, (unsigned long long)count.outside,
+       (unsigned long long)count.at_border, (unsigned long long)ties, (unsigned long long)misses);
     ok(count.spots > cases / 5 && count.trusted > cases / 20 && count.boxes > cases / 20 &&
            count.orthographic > cases / 5 && count.coarse > cases / 400 && count.wide > cases / 20 &&
            count.odd < cases / 1000,
@@ -577,7 +650,8 @@ static gn_settings floor_settings(filter how, receiver who)
 
 /* Masks of pixels 0 to 20 across an edge after so many texels, worked out by hand. Bilinear: 1/4 and 3/4 of 254, that
  * is floor(63.5 + 1/2), floor(190.5 + 1/2). Boxes: of n x n taps, n for each lit column; those beyond the map count as
- * the border's. 4 x 4: the places of 4 cells along the row, each lit from matrix value 4 or 12 on. */
+ * the border's. 4 x 4: the places of 4 cells along the row, each lit from matrix value 4 or 12 on.
+ * Silhouettes: the edge itself, from which all points are farther than 1/8 texel. */
 typedef struct edge_by_hand {
     filter how;
     int edge;
@@ -601,6 +675,11 @@ static const edge_by_hand edges_by_hand[] = {
                 254, 254, 254, 254, 254, 254, 254, 254, 254, 254}},
     {BOX_7, 1, {109, 109, 145, 145, 181, 181, 218, 218, 254, 254, 254,
                 254, 254, 254, 254, 254, 254, 254, 254, 254, 254}},
+    {SILHOUETTES, 8, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 254, 254, 254, 254, 254}},
+    {SMOOTH, 8, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 254, 254, 254, 254, 254}},
+    {SILHOUETTES, 1, {0,   0,   254, 254, 254, 254, 254, 254, 254, 254, 254,
+                      254, 254, 254, 254, 254, 254, 254, 254, 254, 254}},
+    {SMOOTH, 1, {0, 0, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254}},
 };
 
 static void edges_are_filtered_by_hand(void)

@@ -412,8 +412,8 @@ static gn_settings without_effect(gn_settings s)
 
 /* All that a pixel may be tested with; 0 is the point, and the nearest texel. */
 static const gn_receiver *const receivers[] = {0, &gn_plane_bias, &gn_virtual, &gn_virtual_always};
-static const gn_reconstruction *const reconstructions[] = {0,           &gn_bilinear, &gn_jitter_4x4,
-                                                           &gn_box_3x3, &gn_box_5x5,  &gn_box_7x7};
+static const gn_reconstruction *const reconstructions[] = {
+    0, &gn_bilinear, &gn_jitter_4x4, &gn_box_3x3, &gn_box_5x5, &gn_box_7x7, &gn_silhouettes, &gn_silhouettes_smooth};
 
 static gn_settings random_settings(void)
 {
@@ -425,7 +425,7 @@ static gn_settings random_settings(void)
     s.slope = between(0, 3 << 16);
     if (s.map_width > 1 && s.map_height > 1) {
         s.receiver = receivers[between(0, 3)];
-        s.reconstruction = reconstructions[between(0, 5)];
+        s.reconstruction = reconstructions[between(0, 7)];
     }
     s.format = (uint8_t)between(GN_NO_COLOUR, GN_RGB565);
     s.mask = 1;
@@ -494,7 +494,7 @@ static void odd_sizes_work(const courtyard *c)
         s.mask = 1;
         if (s.map_width > 1 && s.map_height > 1) {
             s.receiver = receivers[1 + i % 3];
-            s.reconstruction = reconstructions[i % 6];
+            s.reconstruction = reconstructions[i / 4 % 8];
         }
         gn_status status = render_plain(&plain, c, &s, &c->sun);
         failures += status != GN_OK;
@@ -911,13 +911,13 @@ static void workers_on_threads_equal_one(const courtyard *c)
 {
     static const uint8_t surfaces[] = {GN_CONSTANT, GN_SECOND, GN_MIXED};
     int good = 1;
-    for (int i = 0; good && i < 30; i++) {
+    for (int i = 0; good && i < 32; i++) {
         frame plain, threads;
         gn_settings s = plain_settings();
         const gn_light *light = i & 1 ? &c->sun : &c->spot;
         s.surface = surfaces[i % 3];
         s.receiver = receivers[i % 4];
-        s.reconstruction = reconstructions[i % 6];
+        s.reconstruction = reconstructions[i / 4 % 8];
         good &= render_plain(&plain, c, &s, light) == GN_OK;
         s.workers = (uint8_t)between(2, 8);
         s.map_rows = (uint16_t)between(1, 20);
@@ -1051,6 +1051,8 @@ int main(int argc, char **argv)
     steps_in_any_order_equal_whole_passes(&open, &gn_virtual, 0, "virtual samples, nearest");
     steps_in_any_order_equal_whole_passes(&open, &gn_virtual_always, &gn_jitter_4x4, "virtual samples, 4x4 jitter");
     steps_in_any_order_equal_whole_passes(&open, &gn_plane_bias, &gn_bilinear, "plane bias, bilinear");
+    steps_in_any_order_equal_whole_passes(&open, &gn_virtual, &gn_silhouettes, "virtual samples, silhouettes");
+    steps_in_any_order_equal_whole_passes(&open, 0, &gn_silhouettes_smooth, "the point, smooth silhouettes");
     a_stopped_frame_leaves_the_context_good(&open);
     one_light_pass_serves_many_cameras(&open, 0, "the point");
     one_light_pass_serves_many_cameras(&open, &gn_virtual, "virtual samples");

@@ -72,6 +72,7 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
 #define gn_virtual_always twin_virtual_always
 #define gn_vote_around twin_vote_around
 #define gn_sample_nearest twin_sample_nearest
+#define gn_settle twin_settle
 #define gn_look_at_border twin_look_at_border
 #define gn_look_beyond twin_look_beyond
 #define gn_silhouettes twin_silhouettes
@@ -79,11 +80,11 @@ uint32_t gn_point_bits(const gn_context *context);
 void gn_start_points(const gn_context *context, gn_points *points);
 void gn_find_points(const gn_context *context, gn_points *points, uint32_t *q);
 void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count);
+#include "gn_around.c"
 #include "gn_cascade.c"
 #include "gn_points.c"
 #include "gn_virtual.c"
 #define sample sample_quadrant
-#include "gn_around.c"
 #include "gn_quadrants.c"
 #undef sample
 #undef make_lookup
@@ -97,6 +98,7 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
 #undef gn_virtual_always
 #undef gn_vote_around
 #undef gn_sample_nearest
+#undef gn_settle
 #undef gn_look_at_border
 #undef gn_look_beyond
 #undef gn_silhouettes
