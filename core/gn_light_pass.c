@@ -23,14 +23,13 @@ typedef enum insertion { FIRST, TWO, TWICE, MARKED, RISING } insertion;
 
 typedef struct target {
     gn_depth *first;       /* of the map's first row */
-    gn_depth *second;      /* of the region's first row */
+    gn_depth *second;      /* of the region's first row; 0: the first layer alone */
     int32_t second_offset; /* texels from the map's first row to the region's */
     int32_t stride;
     gn_depth_plane plane;
     uint32_t open; /* 1: mark as open (mixed) */
     uint32_t rise; /* h of the plane, units of z (slope) */
     int steep;     /* too steep for plane: the other one */
-    int nearest;   /* the first layer alone */
     gn_wide_plane steep_plane;
     insertion how;
 #if GN_VECTOR_16
@@ -301,8 +300,6 @@ static insertion choose_insertion(const gn_context *context, const gn_mesh *mesh
 {
     if (context->settings.surface == GN_SLOPE)
         return RISING;
-    if (context->plan.layers == GN_LAYERS_FIRST)
-        return FIRST;
     if (context->settings.surface == GN_MIXED)
         return MARKED;
     return context->settings.surface == GN_SECOND && !mesh->closed ? TWICE : TWO;
@@ -375,7 +372,7 @@ static void insert_mesh(const gn_context *context, target *t, uint32_t object_in
     const gn_vertex *vertices = context->vertices + context->objects[object_index].first_vertex;
     int culled = culled_sign(context, object_index), clips = context->objects[object_index].clips;
     uint32_t count = mesh->triangle_count, flip = culled > 0 ? 0 : 0x80000000u;
-    t->how = t->nearest ? FIRST : choose_insertion(context, mesh);
+    t->how = t->second ? choose_insertion(context, mesh) : FIRST;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t index[3];
         gn_triangle_indices(mesh, i, index);
@@ -539,7 +536,6 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     t.second = w->second;
     t.second_offset = (int32_t)(first_row * stride);
     t.stride = (int32_t)stride;
-    t.nearest = 0;
     clear(context->map + (size_t)first_row * stride, (size_t)rows * stride);
     if (t.second)
         clear(t.second, (size_t)rows * stride);
@@ -559,7 +555,6 @@ void gn_nearest_row(gn_context *context, uint32_t worker, int32_t row, gn_depth 
     t.second = 0;
     t.second_offset = 0;
     t.stride = 0; /* all rows are one */
-    t.nearest = 1;
     clear(depths, context->map_stride);
     draw_window(context, &context->workers[worker].statistics, &t, &window);
 }
