@@ -1494,6 +1494,35 @@ static void marks_do_not_move_depths(void)
        won[0], won[1]);
 }
 
+/* Whether a point is hidden hangs on the depth that hides it, not on its mark, and so not on the region's last row. */
+static void marks_hide_nothing(void)
+{
+    static uint8_t cells[SIDE * SIDE];
+    gn_statistics counts;
+    unsigned failures = 0, drawn = 0, hidden = 0;
+    for (int depth = 1000; depth < 1004; depth++)
+        for (int behind = 0; behind < 5; behind++) {
+            int first = -1;
+            for (int how = 0; how < 12; how++) {
+                table t;
+                set_table(&t, SIDE, SIDE);
+                shape *over = lay_sheet(&t, -4096, -4096, 9000, 9000, depth);
+                lay_sheet(&t, 1088, 1088, 2624, 2624, depth + behind);
+                over->mesh.closed = how & 1;
+                t.settings.surface = GN_MIXED;
+                t.settings.map_rows = (uint16_t)(how / 2);
+                failures += draw_table(&t, cells, &counts) != GN_OK;
+                int visible = cells[3 * SIDE + 3] == 0xcc;
+                first = first < 0 ? visible : first;
+                failures += visible != first;
+                clear_table(&t);
+            }
+            drawn += first == 1;
+            hidden += first == 0;
+        }
+    ok(!failures && drawn && hidden, "marks of mixed surfaces hide nothing: %u depths drawn, %u hidden", drawn, hidden);
+}
+
 /* A level sheet of 8 x 8 squares; its border stands first or last among its edges, which are 32 and 176. */
 static void lay_grid(table *t, int32_t x, int32_t y, int32_t depth, int border_last)
 {
@@ -1720,6 +1749,7 @@ int main(int argc, char **argv)
     the_nearest_edge_wins();
     edges_that_part_texels_come_first();
     marks_do_not_move_depths();
+    marks_hide_nothing();
     no_edge_is_passed_over();
     long_thin_maps();
     clipped_sides_stay_where_they_are();
