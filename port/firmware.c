@@ -1,13 +1,14 @@
 /* The golden firmware: renders every golden scene by several methods and prints one hash a stage, so that compilers,
  * word sizes and byte orders can be compared. The scenes are packed once, on the build host, and lie in flash.
  *
- *     hash SCENE METHOD STAGE HASH          stages: layers, map, mask, colour; shadow volumes: mask, colour; axes:
- *                                           cameras and lights set up here
+ *     hash SCENE METHOD STAGE HASH          stages: layers, map, silhouettes where there are, mask, colour; shadow
+ *                                           volumes: mask, colour; axes: cameras and lights set up here
  *     cost SCENE METHOD light N camera N    instructions, where the port counts them
  *     memory plan N stack N                 bytes: of the largest context, and of stack at its deepest
  *
  * Each method runs twice, with the plan's regions and with small ones of our own: equal hashes are required. Exit
- * status 0: every stage ran, every method made light and shadow, and those that filter, and no other, fractions. */
+ * status 0: every stage ran, every method made light and shadow, those that filter, and no other, fractions, and those
+ * with silhouettes a map that holds some. */
 #include "gnomon.h"
 #include "port.h"
 #include "print.h"
@@ -40,8 +41,8 @@ static const golden_scene scenes[] = {
 };
 
 /* A scene as it was packed; or MOVED: seen by an orthographic camera, its last object turned and mirrored by a model
- * matrix, and a spot light's near plane pushed into it. */
-typedef enum staging { AS_PACKED, MOVED } staging;
+ * matrix, and a spot light's near plane pushed into it; or SOUP: its last object's mesh without edges. */
+typedef enum staging { AS_PACKED, MOVED, SOUP } staging;
 
 typedef struct method {
     const char *name;
@@ -125,6 +126,36 @@ static const method methods[] = {
      .receiver = &gn_plane_bias,
      .reconstruction = &gn_box_7x7,
      .staging = MOVED},
+    {.name = "silhouette",
+     .surface = GN_MIXED,
+     .format = GN_RGB888,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_silhouettes},
+    {.name = "silhouette-moved",
+     .surface = GN_SECOND,
+     .format = GN_RGB565,
+     .reconstruction = &gn_silhouettes,
+     .staging = MOVED},
+    {.name = "silhouette-soup",
+     .surface = GN_DUAL,
+     .format = GN_RGB888,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual_always,
+     .reconstruction = &gn_silhouettes,
+     .staging = SOUP},
+    {.name = "smooth",
+     .surface = GN_SECOND,
+     .format = GN_RGB565,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_silhouettes_smooth},
+    {.name = "crossing-moved",
+     .surface = GN_MIXED,
+     .format = GN_RGB888,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_crossings,
+     .staging = MOVED},
     {.name = "volumes", .format = GN_RGB888, .shadow = GN_SHADOW_VOLUMES},
     {.name = "volumes-moved", .format = GN_RGB565, .shadow = GN_SHADOW_VOLUMES, .staging = MOVED},
 };
@@ -139,8 +170,8 @@ static gn_depth map[MAP * MAP];
 static uint8_t mask[WIDTH * HEIGHT];
 static uint16_t colour[WIDTH * HEIGHT][3]; /* r, g, b; or one RGB565 value and two zeros */
 
-enum { LAYERS_STAGE, MAP_STAGE, MASK_STAGE, COLOUR_STAGE, STAGES }; /* those of volumes begin with the mask */
-static const char *const stage_names[STAGES] = {"layers", "map", "mask", "colour"};
+enum { LAYERS_STAGE, MAP_STAGE, SILHOUETTES_STAGE, MASK_STAGE, COLOUR_STAGE, STAGES };
+static const char *const stage_names[STAGES] = {"layers", "map", "silhouettes", "mask", "colour"};
 
 typedef struct result {
     stage_hash stages[STAGES];
@@ -148,6 +179,7 @@ typedef struct result {
     size_t plan_bytes;
     int light_and_shadow;
     int fractions;
+    uint32_t silhouettes; /* bytes of their map that hold some */
 } result;
 
 static void write_field(const char *text)
@@ -221,10 +253,28 @@ static stage_hash hash_colour(stage_hash hash, gn_format format)
     return hash;
 }
 
-static stage_hash hash_mask(stage_hash hash)
+static stage_hash hash_bytes(stage_hash hash, const uint8_t *bytes, uint32_t count)
 {
-    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
-        hash = stage_hash_u8(hash, mask[i]);
+    for (uint32_t i = 0; i < count; i++)
+        hash = stage_hash_u8(hash, bytes[i]);
+    return hash;
+}
+
+/* The cells of a silhouette map, one less than texels each way, or a crossing map; neither: no byte. *some: how many
+ * bytes say more than that there is nothing. */
+static stage_hash hash_silhouettes(const gn_context *context, uint32_t *some)
+{
+    stage_hash hash = stage_hash_init();
+    uint32_t stride = 0;
+    const uint8_t *bytes = gn_silhouette_map(context, &stride);
+    uint32_t size = bytes ? MAP - 1 : MAP, nothing = bytes ? 0x88 : 0;
+    bytes = bytes ? bytes : gn_crossing_map(context, &stride);
+    *some = 0;
+    for (uint32_t y = 0; bytes && y < size; y++) {
+        hash = hash_bytes(hash, bytes + y * stride, size);
+        for (uint32_t x = 0; x < size; x++)
+            *some += bytes[y * stride + x] != nothing;
+    }
     return hash;
 }
 
@@ -291,6 +341,7 @@ static gn_status render_map(result *out, gn_context *context, const gn_plan *pla
     gn_status status = light_pass(context, plan, golden->light, &out->light_instructions);
     out->stages[LAYERS_STAGE] = hash_depths(hash_depths(stage_hash_init(), layers[0]), layers[1]);
     out->stages[MAP_STAGE] = hash_depths(stage_hash_init(), map);
+    out->stages[SILHOUETTES_STAGE] = hash_silhouettes(context, &out->silhouettes);
     return status;
 }
 
@@ -329,44 +380,70 @@ static void render(result *out, const golden_scene *golden, const method *by, in
         fail("camera", golden, by, status);
     out->camera_instructions = port_instructions() - start;
     look_at_mask(out);
-    out->stages[MASK_STAGE] = hash_mask(stage_hash_init());
+    out->stages[MASK_STAGE] = hash_bytes(stage_hash_init(), mask, WIDTH * HEIGHT);
     out->stages[COLOUR_STAGE] = hash_colour(stage_hash_init(), format);
 }
 
-/* What a moved scene consists of. */
+/* What a scene consists of that is not as it was packed. */
 enum { MOST_OBJECTS = 4 };
-static gn_object moved_objects[MOST_OBJECTS];
+static gn_object staged_objects[MOST_OBJECTS];
+static gn_mesh soup;
 static gn_model moved_model;
-static gn_scene moved_scene;
-static gn_camera moved_camera;
-static gn_light moved_light;
+static gn_scene staged_scene;
+static gn_camera staged_camera;
+static gn_light staged_light;
 
-static golden_scene move(const golden_scene *golden, const method *by)
+/* Returns the last object. */
+static gn_object *copy_scene(const golden_scene *golden, const method *by)
+{
+    staged_scene = *golden->scene;
+    staged_camera = *golden->camera;
+    staged_light = *golden->light;
+    if (staged_scene.object_count < 1 || staged_scene.object_count > MOST_OBJECTS)
+        fail("objects", golden, by, GN_TOO_MANY);
+    for (uint32_t i = 0; i < staged_scene.object_count; i++)
+        staged_objects[i] = golden->scene->objects[i];
+    staged_scene.objects = staged_objects;
+    return &staged_objects[staged_scene.object_count - 1];
+}
+
+static void take_edges_away(gn_object *object)
+{
+    soup = *object->mesh;
+    soup.edges = 0;
+    soup.edge_count = 0;
+    object->mesh = &soup;
+}
+
+static void move(const golden_scene *golden, const method *by, gn_object *last)
 {
     static const int32_t axis[3] = {1, 3, 2}, down[3] = {0, -1, 0};
-    golden_scene moved = {golden->name, &moved_scene, &moved_camera, &moved_light, golden->many_triangles};
     gn_light sun = {0};
-    moved_scene = *golden->scene;
-    moved_camera = *golden->camera;
-    moved_light = *golden->light;
-    if (moved_scene.object_count < 1 || moved_scene.object_count > MOST_OBJECTS)
-        fail("objects", golden, by, GN_TOO_MANY);
-    for (uint32_t i = 0; i < moved_scene.object_count; i++)
-        moved_objects[i] = golden->scene->objects[i];
-    moved_objects[moved_scene.object_count - 1].model = &moved_model;
-    moved_scene.objects = moved_objects;
+    last->model = &moved_model;
     gn_model_identity(&moved_model);
     int status = gn_model_scale(&moved_model, -32768, 32768, 32768);
     status |= gn_model_rotate(&moved_model, axis, GN_DEGREES(25));
     /* the box of a light from above says how large the scene is */
     status |= gn_directional_light(&sun, down, 0);
     status |= gn_fit_light(&sun, golden->scene);
-    status |= gn_orthographic(&moved_camera, sun.box_width / 4, golden->camera->near_depth, golden->camera->far_depth);
+    status |= gn_orthographic(&staged_camera, sun.box_width / 4, golden->camera->near_depth, golden->camera->far_depth);
     if (status != GN_OK)
         fail("move", golden, by, status);
-    if (moved_light.kind == GN_SPOT)
-        moved_light.near_depth += (moved_light.far_depth - moved_light.near_depth) / 4;
-    return moved;
+    if (staged_light.kind == GN_SPOT)
+        staged_light.near_depth += (staged_light.far_depth - staged_light.near_depth) / 4;
+}
+
+static golden_scene stage(const golden_scene *packed, const method *by)
+{
+    golden_scene staged = {packed->name, &staged_scene, &staged_camera, &staged_light, packed->many_triangles};
+    if (by->staging == AS_PACKED)
+        return *packed;
+    gn_object *last = copy_scene(packed, by);
+    if (by->staging == MOVED)
+        move(packed, by, last);
+    else
+        take_edges_away(last);
+    return staged;
 }
 
 static void write_hash_line(const char *scene, const char *by, const char *stage, stage_hash hash)
@@ -449,22 +526,44 @@ static stage_hash hash_axes(const golden_scene *golden)
     return hash;
 }
 
+static int has_silhouettes(const method *by)
+{
+    const gn_reconstruction *how = by->reconstruction;
+    return how && (how == &gn_silhouettes || how == &gn_silhouettes_smooth || how == &gn_crossings);
+}
+
+static int has_stage(const method *by, int stage)
+{
+    if (stage == SILHOUETTES_STAGE)
+        return has_silhouettes(by);
+    return stage >= MASK_STAGE || by->shadow != GN_SHADOW_VOLUMES;
+}
+
+static int has_fractions(const method *by)
+{
+    return by->reconstruction && (!has_silhouettes(by) || by->reconstruction == &gn_silhouettes_smooth);
+}
+
 /* Returns the bytes of the larger plan. */
 static size_t render_method(const golden_scene *packed, const method *by)
 {
     static result whole, parts;
-    golden_scene golden = by->staging == MOVED ? move(packed, by) : *packed;
+    golden_scene golden = stage(packed, by);
     render(&whole, &golden, by, 0);
     render(&parts, &golden, by, 1);
-    for (int stage = by->shadow == GN_SHADOW_VOLUMES ? MASK_STAGE : LAYERS_STAGE; stage < STAGES; stage++) {
+    for (int stage = 0; stage < STAGES; stage++) {
+        if (!has_stage(by, stage))
+            continue;
         write_hash_line(golden.name, by->name, stage_names[stage], whole.stages[stage]);
         if (whole.stages[stage] != parts.stages[stage])
             fail("small-regions-differ", &golden, by, -stage);
     }
     if (!whole.light_and_shadow)
         fail("no-light-or-no-shadow", &golden, by, 0);
-    if (whole.fractions != (by->reconstruction != 0))
+    if (whole.fractions != has_fractions(by))
         fail("fractions-not-as-the-method-has-them", &golden, by, -whole.fractions);
+    if (has_stage(by, SILHOUETTES_STAGE) && !whole.silhouettes)
+        fail("no-silhouette", &golden, by, 0);
     write_cost_line(golden.name, by->name, &whole);
     return whole.plan_bytes > parts.plan_bytes ? whole.plan_bytes : parts.plan_bytes;
 }

@@ -93,16 +93,21 @@ static gn_settings light_settings(gn_surface surface)
     return settings;
 }
 
-static void measure_light_pass(const gn_scene *scene, const gn_settings *settings)
+static void measure_light_pass_of(const gn_scene *scene, const gn_settings *settings, const gn_light *light)
 {
     gn_plan plan;
-    gn_light light;
-    light_along_minus_z(&light);
     prepare(scene, settings, &plan);
     mark_begin();
-    gn_status status = gn_light_pass(context, &light);
+    gn_status status = gn_light_pass(context, light);
     mark_end();
     require(status == GN_OK, "light pass");
+}
+
+static void measure_light_pass(const gn_scene *scene, const gn_settings *settings)
+{
+    gn_light light;
+    light_along_minus_z(&light);
+    measure_light_pass_of(scene, settings, &light);
 }
 
 static const uint16_t quad_indices[][3] = {{0, 1, 2}, {0, 2, 3}};
@@ -134,13 +139,14 @@ static void measure_texels(const char *name, const gn_mesh *mesh, gn_surface sur
 }
 
 /* The map alone: clear and resolve, by its size. The one triangle is too small for any texel. */
-static void measure_map(const char *name, gn_surface surface)
+static void measure_map(const char *name, gn_surface surface, const gn_reconstruction *reconstruction)
 {
     static const int32_t speck[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     static const gn_mesh mesh = {speck, quad_indices, 3, 1, sizeof(uint16_t), 0, 0, 0};
     static const gn_object object = {&mesh, 0, {0, 0, 0}};
     gn_scene scene = scene_of(&object, 1);
     gn_settings settings = light_settings(surface);
+    settings.reconstruction = reconstruction;
     for (uint16_t rows = MAP / 2; rows <= MAP; rows = (uint16_t)(rows + MAP / 2)) {
         settings.map_height = rows;
         write_case(name, "-", rows);
@@ -360,26 +366,28 @@ static const test tests[] = {
     {"-pcf5-", GN_SECOND, 0, &gn_box_5x5},
     {"-pcf5-virtual-", GN_SECOND, &gn_virtual, &gn_box_5x5},
     {"-pcf7-", GN_SECOND, 0, &gn_box_7x7},
+    {"-silhouette-", GN_SECOND, 0, &gn_silhouettes},
+    {"-silhouette-virtual-", GN_SECOND, &gn_virtual, &gn_silhouettes},
+    {"-smooth-virtual-", GN_SECOND, &gn_virtual, &gn_silhouettes_smooth},
+    {"-crossing-virtual-", GN_SECOND, &gn_virtual, &gn_crossings},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
+static const struct {
+    const char *name;
+    const gn_scene *scene;
+    const gn_camera *camera;
+    const gn_light *light;
+} golden[] = {
+    {"lshape", &lshape_scene, &lshape_camera, &lshape_light}, {"torus2", &torus2_scene, &torus2_camera, &torus2_light},
+    {"table", &table_scene, &table_camera, &table_light},     {"pipes", &pipes_scene, &pipes_camera, &pipes_light},
+    {"pins", &pins_scene, &pins_camera, &pins_light},         {"fence", &fence_scene, &fence_camera, &fence_light},
+};
+
 /* Whole camera passes of the golden scenes: vertices, bins, visibility, shadow test, colours. */
 static void measure_golden_frames(void)
 {
-    static const struct {
-        const char *name;
-        const gn_scene *scene;
-        const gn_camera *camera;
-        const gn_light *light;
-    } golden[] = {
-        {"lshape", &lshape_scene, &lshape_camera, &lshape_light},
-        {"torus2", &torus2_scene, &torus2_camera, &torus2_light},
-        {"table", &table_scene, &table_camera, &table_light},
-        {"pipes", &pipes_scene, &pipes_camera, &pipes_light},
-        {"pins", &pins_scene, &pins_camera, &pins_light},
-        {"fence", &fence_scene, &fence_camera, &fence_light},
-    };
     for (unsigned i = 0; i < COUNT(tests); i++) {
         gn_settings settings = gn_default_settings(160, 120, 128);
         settings.surface = (uint8_t)tests[i].surface;
@@ -688,6 +696,108 @@ static void measure_planes(const char *name, const view *v)
     }
 }
 
+/* ---- silhouette maps ------------------------------------------------------------------------------------------- */
+
+/* All that the camera sees lies between the centres of four texels, and an edge of the occluder among them: the two on
+ * the left are shadowed for every pixel. Its point is right of the middle, so that silhouettes shadow more. */
+static void measure_one_cell(void)
+{
+    enum { TEXELS = 8, SIDE = 24000, ACROSS = TEXELS / 2 * SIDE, NEAREST = -40000 };
+    static const int32_t corners[4][3] = {
+        {-80000, -80000, 10000}, {1000, -80000, 10000}, {7000, 80000, 10000}, {-80000, 80000, 10000}};
+    gn_mesh edge = quad_with_edges(corners), ground = quad_with_edges(receiver);
+    const gn_object objects[] = {{&ground, 0, {200, 180, 160}}, {&edge, 0, {90, 90, 90}}};
+    gn_scene scene = scene_of(objects, COUNT(objects));
+    gn_camera camera;
+    gn_light light;
+    set_up_view(&views[0], &scene, &camera, &light);
+    light_along_minus_z(&light);
+    light.box_u = light.box_v = -ACROSS;
+    light.box_width = light.box_height = 2 * ACROSS;
+    light.box_z = NEAREST;
+    light.box_depth = -2 * NEAREST;
+    for (unsigned i = 0; i < COUNT(tests); i++) {
+        const gn_reconstruction *how = tests[i].reconstruction;
+        int silhouettes = how == &gn_silhouettes || how == &gn_silhouettes_smooth || how == &gn_crossings;
+        if (!silhouettes && (how || (tests[i].receiver && tests[i].receiver != &gn_virtual)))
+            continue;
+        for (uint16_t width = 160; width <= 320; width = (uint16_t)(width + 160)) {
+            gn_settings settings = room_settings(&views[0], width, 0);
+            settings.map_width = settings.map_height = TEXELS;
+            settings.receiver = tests[i].receiver;
+            settings.reconstruction = how;
+            look_at_view(&scene, &settings, &camera, &light);
+            require(lit && (silhouettes ? shadowed > 2 * lit : shadowed < 2 * lit), "a border where it belongs");
+            write_case("open-sun", tests[i].name, width);
+            measure_camera_pass(&scene, &settings, &camera, &light);
+        }
+    }
+}
+
+/* Edges of so many texels, of the grid as it is and of its triangles as if each stood alone: 352 more silhouettes in
+ * the same cells. Vertices lie 0.3 texel from the centres of texels, both ways. */
+static void measure_drawn_edges(const char *name, const gn_reconstruction *how, int32_t texels)
+{
+    gn_settings settings = light_settings(GN_MIXED);
+    settings.bias.unit = GN_BIAS_TEXELS;
+    settings.reconstruction = how;
+    make_grid(TEXEL * 8 / 10, 0, texels * TEXEL);
+    for (int32_t i = 0; i < (GRID + 1) * (GRID + 1); i++)
+        grid_vertices[i][1] += TEXEL * 8 / 10;
+    for (int lone = 0; lone < 2; lone++) {
+        gn_mesh mesh = grid_mesh(lone);
+        const gn_object object = {&mesh, 0, {200, 180, 160}};
+        gn_scene scene = scene_of(&object, 1);
+        write_case(name, "-", lone ? 3 * GRID_TRIANGLES : 3 * GRID_TRIANGLES - 2 * GRID_SHARED);
+        measure_light_pass(&scene, &settings);
+    }
+}
+
+/* A grid that the light sees edge-on: no edge is a silhouette. One, or two; as it is, and with an edge for each side of
+ * each triangle. */
+static void measure_edges_looked_at(void)
+{
+    static const int32_t direction[3] = {1, 0, 0};
+    make_grid(0, 0, 600);
+    for (int lone = 0; lone < 2; lone++) {
+        gn_mesh meshes[2] = {grid_mesh(lone), grid_mesh(lone)};
+        const gn_object objects[2] = {{&meshes[0], 0, {200, 180, 160}}, {&meshes[1], 0, {200, 180, 160}}};
+        for (int silhouettes = 0; silhouettes < 2; silhouettes++) {
+            gn_settings settings = light_settings(GN_MIXED);
+            settings.bias.unit = GN_BIAS_TEXELS;
+            settings.reconstruction = silhouettes ? &gn_silhouettes : 0;
+            for (uint32_t count = 1; count <= 2; count++) {
+                gn_scene scene = scene_of(objects, count);
+                gn_light light;
+                require(gn_directional_light(&light, direction, 0) == GN_OK, "light");
+                require(gn_fit_light(&light, &scene) == GN_OK, "fit");
+                write_case(lone ? "edge-on-lone" : "edge-on", silhouettes ? "-silhouette-" : "-plain-",
+                           count * GRID_TRIANGLES);
+                measure_light_pass_of(&scene, &settings, &light);
+            }
+        }
+    }
+}
+
+/* Light passes of the golden scenes, mixed, without silhouettes and with, map 128. */
+static void measure_golden_light_passes(void)
+{
+    static const struct {
+        const char *name;
+        const gn_reconstruction *reconstruction;
+    } with[] = {{"-light-plain-", 0}, {"-light-silhouette-", &gn_silhouettes}, {"-light-crossing-", &gn_crossings}};
+    for (unsigned i = 0; i < COUNT(with); i++) {
+        gn_settings settings = gn_default_settings(160, 120, 128);
+        settings.surface = GN_MIXED;
+        settings.bias.value = 2 << 16;
+        settings.reconstruction = with[i].reconstruction;
+        for (unsigned g = 0; g < COUNT(golden); g++) {
+            write_case(golden[g].name, with[i].name, 128);
+            measure_light_pass_of(golden[g].scene, &settings, golden[g].light);
+        }
+    }
+}
+
 static void measure_all_volumes(void)
 {
     static const int32_t ahead[3] = {1, 1, -400}, across[3] = {4, 0, -1}, lamp[3] = {300, 200, 5000};
@@ -714,9 +824,10 @@ int main(void)
         measure_texels("slope-wide", &wide_mesh, GN_SLOPE, pass);
         measure_texels("slope-narrow", &narrow_mesh, GN_SLOPE, pass);
     }
-    measure_map("one-map", GN_CONSTANT);
-    measure_map("two-map", GN_DUAL);
-    measure_map("slope-map", GN_SLOPE);
+    measure_map("one-map", GN_CONSTANT, 0);
+    measure_map("two-map", GN_DUAL, 0);
+    measure_map("slope-map", GN_SLOPE, 0);
+    measure_map("silhouette-map", GN_DUAL, &gn_silhouettes);
     make_small_triangles();
     measure_small_triangles("one-small", GN_CONSTANT, 0);
     measure_small_triangles("two-small", GN_DUAL, 0);
@@ -729,6 +840,13 @@ int main(void)
     measure_all_agreements();
     measure_planes("planes-sun", &views[0]);
     measure_planes("planes-spot", &views[2]);
+    measure_one_cell();
+    measure_drawn_edges("drawn-short", &gn_silhouettes, 1);
+    measure_drawn_edges("drawn-long", &gn_silhouettes, 16);
+    measure_drawn_edges("crossing-short", &gn_crossings, 1);
+    measure_drawn_edges("crossing-long", &gn_crossings, 16);
+    measure_edges_looked_at();
+    measure_golden_light_passes();
     measure_all_volumes();
     return 0;
 }

@@ -44,6 +44,44 @@ function added(t, where, method) {
     return pixel(t, where "-" method) - pixel(t, where "-point")
 }
 
+# Every pixel between four texels that disagree.
+function open_pixel(t, with, without) {
+    return pixel(t, "open-sun-" with) - pixel(t, "open-sun-" without)
+}
+
+# 352 more silhouette edges of the same triangles, in the same cells.
+function drawn(t, how) {
+    return less(t, how "-384", how "-32") / 352
+}
+
+# A vertex 0.3 texel from the centre of one both ways. An edge of n texels along an axis touches n + 1 cells; a diagonal
+# one passes through the corners of cells, all four of which count: 3 n + 1. Of 352 edges 224 are along an axis.
+function cells(texels) {
+    return (224 * (texels + 1) + 128 * (3 * texels + 1)) / 352
+}
+
+# Of triangles that the light sees edge-on, what silhouettes cost: 176 edges more of the same 128, 128 more triangles.
+function looked_at(t) {
+    return less(t, "edge-on-lone-silhouette-128", "edge-on-silhouette-128") / (384 - 208)
+}
+
+function faced(t,    grid) {
+    grid = less(t, "edge-on-silhouette-256", "edge-on-silhouette-128") - less(t, "edge-on-plain-256", "edge-on-plain-128")
+    return (grid - 208 * looked_at(t)) / 128
+}
+
+# Light passes with silhouettes, percent of those without.
+function light_share(t, scene, how) {
+    return 100 * count(t, scene "-light-" how "-128") / count(t, scene "-light-plain-128")
+}
+
+function mean_light_share(t, how,    names, n, i, sum) {
+    n = split("lshape torus2 table pipes pins fence", names, " ")
+    for (i = 1; i <= n; i++)
+        sum += light_share(t, names[i], how)
+    return sum / n
+}
+
 function frame(t, a) {
     return count(t, a "-160") / (160 * 120)
 }
@@ -82,6 +120,12 @@ function figure(t, kind, a, b) {
     if (kind == "frame") return frame(t, a)
     if (kind == "mean") return mean_frame(t, a)
     if (kind == "plane") return plane(t, a)
+    if (kind == "open") return open_pixel(t, a, b)
+    if (kind == "drawn") return drawn(t, a)
+    if (kind == "cell") return (drawn(t, a "-long") - drawn(t, a "-short")) / (cells(16) - cells(1))
+    if (kind == "looked") return looked_at(t)
+    if (kind == "faced") return faced(t)
+    if (kind == "share") return a == "mean" ? mean_light_share(t, b) : light_share(t, a, b)
     if (kind == "side") return side_fragment(t, a)
     if (kind == "cap") return (quads_behind(t, "volumes") - quads_behind(t, "map")) / (4 * 2 * 160 * 240)
     # more silhouette edges of the same grid of 128 triangles
@@ -148,6 +192,8 @@ END {
     row("3x3, lit", "", "added", "lit-sun", "pcf3")
     row("5x5, lit", "", "added", "lit-sun", "pcf5")
     row("7x7, lit", "", "added", "lit-sun", "pcf7")
+    row("silhouettes, lit", "", "added", "lit-sun", "silhouette")
+    row("silhouettes, virtual samples, lit", "", "added", "lit-sun", "silhouette-virtual")
     row("plane of a receiver, directional", "", "plane", "planes-sun")
     row("plane of a receiver, spot", "", "plane", "planes-spot")
 
@@ -164,6 +210,34 @@ END {
     row("5x5", "", "mean", "pcf5")
     row("5x5, virtual samples", "", "mean", "pcf5-virtual")
     row("7x7", "", "mean", "pcf7")
+    row("silhouettes", "", "mean", "silhouette")
+    row("silhouettes, virtual samples", "", "mean", "silhouette-virtual")
+    row("smooth silhouettes, virtual samples", "", "mean", "smooth-virtual")
+    row("crossings, virtual samples", "", "mean", "crossing-virtual")
+
+    print "Silhouette maps: a pixel between four texels that disagree"
+    row("virtual samples over point", "", "open", "virtual", "point")
+    row("silhouettes over point", "", "open", "silhouette", "point")
+    row("virtual samples and silhouettes over virtual samples", "", "open", "silhouette-virtual", "virtual")
+    row("virtual samples and smooth silhouettes over these", "", "open", "smooth-virtual", "virtual")
+    row("virtual samples and crossings over these", "", "open", "crossing-virtual", "virtual")
+    print "and in the light pass"
+    row("texel of the map, two layers and silhouettes", "", "map", "silhouette-map")
+    row("triangle, facing", "", "faced")
+    row("edge that is no silhouette", "", "looked")
+    row("silhouette edge of 1 texel, 2.7 cells", "", "drawn", "drawn-short")
+    row("silhouette edge of 16 texels, 28.6 cells", "", "drawn", "drawn-long")
+    row("cell more of an edge, with its share of rows", "", "cell", "drawn")
+    row("crossings: edge of 1 texel", "", "drawn", "crossing-short")
+    row("crossings: edge of 16 texels", "", "drawn", "crossing-long")
+    row("light pass, mixed, percent of that without: lshape", "", "share", "lshape", "silhouette")
+    row("torus2", "", "share", "torus2", "silhouette")
+    row("table", "", "share", "table", "silhouette")
+    row("pipes", "", "share", "pipes", "silhouette")
+    row("pins", "", "share", "pins", "silhouette")
+    row("fence", "", "share", "fence", "silhouette")
+    row("mean", "", "share", "mean", "silhouette")
+    row("mean, crossings", "", "share", "mean", "crossing")
 
     print "Shadow volumes"
     row("a pixel of lshape's whole camera pass", 210, "frame", "lshape-volumes")

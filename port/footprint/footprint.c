@@ -3,6 +3,7 @@
  * RAM_LIMIT bytes (board.ld), so that running at all proves that it fits. Prints
  *
  *     ram plan N statics N stack N whole N      bytes
+ *     building all N rows-32 N rows-16 N        of the context while the map is made, in one region or by so many rows
  */
 #include "footprint.h"
 #include "gnomon.h"
@@ -13,11 +14,20 @@
 #ifndef FOOTPRINT_SHADOW
 #define FOOTPRINT_SHADOW GN_SHADOW_MAP
 #endif
+#ifndef FOOTPRINT_SURFACE
+#define FOOTPRINT_SURFACE GN_SECOND
+#define FOOTPRINT_BIAS_TEXELS 0
+#endif
 #ifndef FOOTPRINT_RECEIVER
 #define FOOTPRINT_RECEIVER 0
 #endif
 #ifndef FOOTPRINT_RECONSTRUCTION
 #define FOOTPRINT_RECONSTRUCTION 0
+#endif
+/* Rows of a region of the map and of the image; 0: as gn_make_plan takes them. */
+#ifndef FOOTPRINT_MAP_ROWS
+#define FOOTPRINT_MAP_ROWS 0
+#define FOOTPRINT_IMAGE_ROWS 0
 #endif
 
 enum { RAM_LIMIT = 96 * 1024, STACK = 4096, STATICS = 1024 };
@@ -44,6 +54,28 @@ static void write_bytes(const char *name, uint32_t bytes)
     write_decimal(bytes);
 }
 
+static gn_settings settings_with(uint16_t map_rows)
+{
+    gn_settings settings = gn_default_settings(320, 240, 128);
+    settings.mask = 1;
+    settings.shadow = FOOTPRINT_SHADOW;
+    settings.surface = FOOTPRINT_SURFACE;
+    settings.bias.value = FOOTPRINT_BIAS_TEXELS << 16;
+    settings.receiver = FOOTPRINT_RECEIVER;
+    settings.reconstruction = FOOTPRINT_RECONSTRUCTION;
+    settings.region_height = FOOTPRINT_IMAGE_ROWS;
+    settings.map_rows = map_rows;
+    return settings;
+}
+
+static void write_building(const char *name, uint16_t map_rows)
+{
+    gn_settings settings = settings_with(map_rows);
+    gn_plan plan = {0};
+    (void)gn_make_plan(&plan, &footprint_scene, &settings);
+    write_bytes(name, (uint32_t)plan.light_bytes);
+}
+
 static gn_status light_pass(gn_context *context)
 {
     return FOOTPRINT_SHADOW == GN_SHADOW_VOLUMES ? gn_volumes_light(context, &footprint_light)
@@ -58,13 +90,9 @@ static gn_status camera_pass(gn_context *context)
 
 int main(void)
 {
-    gn_settings settings = gn_default_settings(320, 240, 128);
+    gn_settings settings = settings_with(FOOTPRINT_MAP_ROWS);
     gn_plan plan;
     gn_context *context;
-    settings.mask = 1;
-    settings.shadow = FOOTPRINT_SHADOW;
-    settings.receiver = FOOTPRINT_RECEIVER;
-    settings.reconstruction = FOOTPRINT_RECONSTRUCTION;
     if (gn_make_plan(&plan, &footprint_scene, &settings) != GN_OK || plan.triangles != 1000)
         return 1;
     if (gn_init(&context, &footprint_scene, &settings, memory, sizeof memory) != GN_OK)
@@ -81,6 +109,9 @@ int main(void)
     write_bytes(" statics ", statics);
     write_bytes(" stack ", stack);
     write_bytes(" whole ", whole);
+    write_building("\nbuilding all ", 0);
+    write_building(" rows-32 ", 32);
+    write_building(" rows-16 ", 16);
     port_write("\n");
     return whole <= RAM_LIMIT ? 0 : 5;
 }

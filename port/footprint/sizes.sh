@@ -63,6 +63,12 @@ job() {
         }' "$build/cortex-m4-16/footprint/$2.txt" || failed=1
 }
 
+# building TEXT PROGRAM: one line. What the light pass needs, by the rows of its regions.
+building() {
+    awk -v text="$1" '$1 == "building" { printf "%-36s %8d %11d %11d\n", text, $3, $5, $7; ran = 1 } END { exit !ran }' \
+        "$build/cortex-m4-16/footprint/$2.txt" || failed=1
+}
+
 echo "Cortex-M4, 1,000 triangles in flash, image 320 x 240, 16 bits, bytes; at most $ram_limit of RAM"
 printf '%-40s %6s%9s %8s %8s %6s %6s\n' "" flash "at most" context statics stack RAM
 job "map 128 x 128, second depth, point" footprint $flash_limit
@@ -72,5 +78,15 @@ job "bilinear" footprint_bilinear
 job "4 x 4 jitter" footprint_jitter
 job "box 5 x 5" footprint_box
 job "box 5 x 5 with virtual samples" footprint_virtual_box
+job "mixed surfaces with virtual samples" footprint_mixed
+job "the same with silhouettes, small regions" footprint_silhouette
+job "the same with crossings, small regions" footprint_crossing
 job "shadow volumes" footprint_volumes $volumes_flash_limit
+echo
+echo "Silhouettes take $(($(flash_of footprint_silhouette) - $(flash_of footprint_mixed))) bytes of flash, \
+crossings $(($(flash_of footprint_crossing) - $(flash_of footprint_mixed)))."
+echo "Context while the map is made           whole  by 32 rows  by 16 rows"
+building "mixed" footprint_mixed
+building "mixed with silhouettes" footprint_silhouette
+building "mixed with crossings" footprint_crossing
 exit $failed

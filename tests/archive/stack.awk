@@ -19,8 +19,15 @@ BEGIN {
     # gn_receiver and gn_reconstruction (core/gn_cascade.h)
     may_call("^gn_camera_region$", "^gn_cascade_row$")
     may_call("^gn_colour_region_row$", "^gn_colour_(row|fractions)$")
-    may_call("^gn_cascade_row$", ":(move|vote|resample)")
-    may_call(":resample", ":sample")
+    may_call("^gn_cascade_row$", ":(move|vote|resample)|^gn_(vote_around|settle)$")
+    may_call(":resample|^gn_settle$", ":sample|^gn_sample_nearest$")
+    # gn_drawing and gn_canvas (core/gn_drawing.h)
+    may_call("^gn_make_plan$", "^gn_check_drawing$")
+    may_call("^gn_(make_plan|init)$|/gn_plan.c:lay_out_head", "^gn_lay_out_drawn$")
+    may_call("^gn_lay_out_light$", "_map.c:lay_out_light$|^gn_lay_out_drawing$")
+    may_call("^gn_light_begin$", "_map.c:begin$|^gn_begin_drawing$")
+    may_call("^gn_light_layers$", "_map.c:draw$")
+    may_call("/gn_drawing.c:|^gn_draw_silhouette_edges$", "_map.c:draw_stroke$")
 }
 
 # A pointer in functions whose names match the first pattern may mean any that matches the second.

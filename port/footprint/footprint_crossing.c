@@ -1,0 +1,8 @@
+/* The job of footprint.c with mixed surfaces, virtual samples and crossings, in regions as footprint_silhouette.c. */
+#define FOOTPRINT_SURFACE GN_MIXED
+#define FOOTPRINT_BIAS_TEXELS 2
+#define FOOTPRINT_RECEIVER (&gn_virtual)
+#define FOOTPRINT_RECONSTRUCTION (&gn_crossings)
+#define FOOTPRINT_MAP_ROWS 32
+#define FOOTPRINT_IMAGE_ROWS 6
+#include "footprint.c"
