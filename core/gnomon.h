@@ -255,7 +255,7 @@ extern const gn_reconstruction gn_box_3x3, gn_box_5x5, gn_box_7x7; /* the texels
 /* A silhouette map (Sen, Cammarano & Hanrahan 2003): hard shadows whose borders follow the silhouettes of the meshes
  * through the texels, and not the texels' sides. The light pass draws the silhouette edges of all meshes into a map of
  * one byte a texel. Meshes need edges; of one without (a triangle soup) the edges of every triangle are drawn
- * where they separate depths, at up to a quarter more error. smooth: the same borders a quarter of a texel wide, in
+ * where they separate depths, at up to three tenths more error. smooth: the same borders a quarter of a texel wide, in
  * five steps of light. docs/shadow-test.md. */
 extern const gn_reconstruction gn_silhouettes, gn_silhouettes_smooth;
 
@@ -353,13 +353,14 @@ const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t reg
 /* After the light pass with gn_silhouettes: a byte a cell. Cell (column, row), at row * *stride + column, lies between
  * the centres of texels (column, row) and (column + 1, row + 1). Low 4 bits: x, high 4 bits: y of a point of the
  * silhouette that passes through it, in 1/16 texel from the cell's upper left corner; 0x88, the centre, where there is
- * none. Cells that are not between four texels (the last column and the last row) hold 0x88. 0 without. */
+ * none. Cells that are not between four texels (the last column and the last row) hold 0x88. 0 without, and before the
+ * first light pass. */
 const uint8_t *gn_silhouette_map(const gn_context *context, uint32_t *stride);
 
 /* After the light pass with gn_crossings: a byte a texel, texel (column, row) at row * *stride + column. Low 4 bits:
  * where a silhouette crosses the way from the texel's centre to the centre of the next texel to the right, high 4 bits:
  * to the one below, in 1/16 of the way, 1 to 15; 0: nowhere, which is read as 8. There is nothing beyond the last
- * column and the last row: 0. 0 without. */
+ * column and the last row: 0. 0 without, and before the first light pass. */
 const uint8_t *gn_crossing_map(const gn_context *context, uint32_t *stride);
 
 /* ---- camera pass ----------------------------------------------------------------------------------------------- */

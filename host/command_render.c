@@ -42,9 +42,9 @@ static const option table[OPTION_COUNT] = {
     {"--second-depth", "FILE", "second nearest depths, where the method keeps two layers"},
     {"--map-image", "FILE", "the depths that pixels are compared with, made of the layers"},
     {"--silhouettes", "FILE",
-     "the silhouette map over the depths that pixels are compared with (near: bright), 1\n"
-     "to 16 pixels a texel: red points, joined by orange lines from 8 pixels on. Of\n"
-     "--reconstruct silhouette alone"},
+     "the silhouette map over the depths that pixels are compared with (near:\n"
+     "bright), 1 to 16 pixels a texel: red points, joined by orange lines from 8\n"
+     "pixels on. Of --reconstruct silhouette and silhouette-smooth"},
     {"--stats", "FILE.json", "sizes, memory, counts and times"},
     {"--hash", 0, "print a hash for each stage: layers, map, silhouettes where there are, mask, colour"},
     WORK_OPTIONS,
@@ -161,7 +161,7 @@ static void say_what_was_tested(const frame *f)
     fputs("\n", stderr);
     if (choices_have_silhouettes(&f->settings))
         fprintf(stderr,
-                "%" PRIu64 " silhouette edges, %" PRIu64 " texels with a point of one; %" PRIu64
+                "%" PRIu64 " silhouette edges, %" PRIu64 " texels with a point or crossing of one; %" PRIu64
                 " pixels decided by them, %.3g %% of those shaded\n",
                 s.silhouette_edges, s.silhouette_texels, s.pixels_silhouette, 100 * share_of_silhouettes(&s));
 }
@@ -199,8 +199,8 @@ static int write_pixels(job *j, const char *path, uint8_t *pixels, uint32_t chan
 }
 
 /* Bytes that the test of a pixel reads, by the model of Sen et al. 2003, section 4, and over those of a shadow map.
- * Near a silhouette 3 points are read; a point of theirs has 8 bytes. A fragment of a shadow volume reads a depth and a
- * stencil value, and writes half of the latter. */
+ * Near a silhouette 3 points are read (of a crossing map 3 bytes as well; smooth borders read more); a point of theirs
+ * has 8 bytes. A fragment of a shadow volume reads a depth and a stencil value, and writes half of the latter. */
 static void write_bandwidth(json *j, const frame *f, const gn_statistics *s)
 {
     enum { DEPTH = 4, POINTS = 3, POINT = 8 };
@@ -371,12 +371,12 @@ static int render(job *j)
         return problem_of_usage(&j->why, "shadow volumes have no map to write; expected a method with a shadow map");
     if (j->values[OUTPUT_SILHOUETTES] && !choices_have_silhouettes(&j->settings))
         return problem_of_usage(&j->why,
-                                "--silhouettes, but no silhouette map is made; expected --method silhouette, or "
-                                "--reconstruct silhouette with another method that has a shadow map");
+                                "--silhouettes, but no silhouette map is made; expected --reconstruct silhouette or "
+                                "silhouette-smooth, as --method silhouette has");
     if (j->values[OUTPUT_SILHOUETTES] && j->settings.reconstruction == &gn_crossings)
         return problem_of_usage(&j->why,
-                                "--silhouettes, but the map is one of crossings; expected --method silhouette, or "
-                                "--reconstruct silhouette");
+                                "--silhouettes, but the map is one of crossings; expected --reconstruct silhouette or "
+                                "silhouette-smooth");
     if (j->values[OUTPUT_SECOND_DEPTH] && j->frame.layer_count < 2)
         return problem_of_usage(&j->why,
                                 "--second-depth, but the method keeps one layer; expected a method with two layers");

@@ -3,6 +3,7 @@
  *     layers   the first layer's rows from the top, then the second's, each texel in GN_DEPTH_BITS / 8 bytes; a layer
  *              that does not exist counts as zeros
  *     map      the rows of the resolved map
+ *     silhouettes  the cells of the silhouette map, or the texels of the crossing map, one byte each
  *     mask     the rows of the image, one byte a pixel
  *     colour   the rows of the image, three bytes a pixel: r, g, b (GN_RGB888); for GN_RGB565 two
  *

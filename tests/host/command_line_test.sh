@@ -281,7 +281,7 @@ check "which_another_scene_changes" test "$(sed -n 's/^silhouettes //p' "$folder
 check "verbose_names_their_memory" grep -q "reconstruction silhouette; [0-9]* bytes, of them [0-9]* for the map, \
 $(count_of silhouettes "$folder/sil.json") for its silhouettes$" "$folder/said"
 check "and_their_counts" grep -q "^$(count_of silhouette_edges "$folder/sil.json") silhouette edges, \
-$(count_of silhouette_texels "$folder/sil.json") texels with a point of one; \
+$(count_of silhouette_texels "$folder/sil.json") texels with a point or crossing of one; \
 $(count_of pixels_silhouette "$folder/sil.json") pixels decided by them, [0-9.]* % of those shaded$" "$folder/said"
 check "bench_takes_silhouettes" sh -c "'$gnomon' bench '$scene' --runs 1 --size 40x30 --map 32 --method silhouette \
     --json '$folder/bench.json' | grep -q 'receiver virtual, reconstruction silhouette, region' &&
@@ -436,12 +436,12 @@ check "an_unknown_method_is_refused" refuses "--method best" render "$scene" --m
 check "pcf9_is_refused" refuses "--reconstruct pcf9; expected one of: nearest, bilinear, jitter4x4, pcf3, pcf5, pcf7, silhouette, silhouette-smooth, crossing" \
     render "$scene" --reconstruct pcf9 -o "$folder/new.ppm"
 for method in mixed auto adaptive volumes; do
-    check "silhouettes_of_${method}_are_refused" refuses "--silhouettes, but no silhouette map is made; expected --method silhouette" \
+    check "silhouettes_of_${method}_are_refused" refuses "--silhouettes, but no silhouette map is made; expected --reconstruct silhouette or silhouette-smooth" \
         render "$scene" --method $method --silhouettes "$folder/new.ppm" -o "$folder/new-too.ppm"
 done
 check "silhouettes_of_a_filter_are_refused" refuses "expected --method silhouette, or --reconstruct silhouette" render "$scene" \
     --method silhouette --reconstruct pcf3 --silhouettes "$folder/new.ppm"
-check "crossings_have_no_picture" refuses "the map is one of crossings; expected --method silhouette, or --reconstruct silhouette" \
+check "crossings_have_no_picture" refuses "the map is one of crossings; expected --reconstruct silhouette or silhouette-smooth" \
     render "$scene" --method silhouette --reconstruct crossing --silhouettes "$folder/new.ppm"
 check "grey_silhouettes_are_refused" refuses "expected .ppm" render "$scene" --method silhouette --silhouettes "$folder/new.pgm"
 check "silhouettes_in_a_missing_folder_are_refused" refuses "cannot be written" render "$scene" --method silhouette \

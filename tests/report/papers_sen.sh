@@ -142,8 +142,8 @@ counts() {
         FILENAME ~ /volumes/ { if ($1 == "overdraw" && !("O" in n)) n["O"] = $2; next }
         !($1 in n) { n[$1] = $2 + 0 }
         END { p = n["pixels_silhouette"] / n["pixels_shaded"]
-              printf "%s, map %d: triangles %d, silhouette edges %d, silhouette fill %d, P %.1f %%, O %.2f; 1 + 6 P %.2f\n", name,
-                  map, n["triangles"], n["silhouette_edges"], n["pixels_silhouette"], 100 * p, n["O"], 1 + 6 * p }' \
+              printf "%s, map %d: triangles %d, silhouette edges %d, silhouette fill %d of %d, P %.1f %%, O %.2f; 1 + 6 P %.2f\n", name,
+                  map, n["triangles"], n["silhouette_edges"], n["pixels_silhouette"], n["pixels_shaded"], 100 * p, n["O"], 1 + 6 * p }' \
         "$work/stats.json" "$work/volumes.json"
 }
 
