@@ -2,9 +2,11 @@
 
 #include <assert.h>
 
+#define LENGTH(values) (sizeof values / sizeof *values)
+/* An array of negative length where the table is too long. */
 #define TABLE(values)                                                                                                  \
     {                                                                                                                  \
-        values, sizeof values / sizeof *values                                                                         \
+        values, (int)(LENGTH(values) + 0 * sizeof(char[LENGTH(values) <= CHOICES_MOST ? 1 : -1]))                      \
     }
 
 static const choice shadows[] = {{"map", "GN_SHADOW_MAP", 0}, {"volumes", "GN_SHADOW_VOLUMES", 0}};

@@ -20,7 +20,7 @@ typedef struct choices {
     int count;
 } choices;
 
-enum { CHOICES_MOST = 8 }; /* no table is longer */
+enum { CHOICES_MOST = 12 }; /* no table is longer: choices.c does not compile otherwise */
 
 extern const choices choices_shadow, choices_cull, choices_layers, choices_surface, choices_bias_unit;
 extern const choices choices_receiver, choices_reconstruction;

@@ -439,7 +439,7 @@ for method in mixed auto adaptive volumes; do
     check "silhouettes_of_${method}_are_refused" refuses "--silhouettes, but no silhouette map is made; expected --reconstruct silhouette or silhouette-smooth" \
         render "$scene" --method $method --silhouettes "$folder/new.ppm" -o "$folder/new-too.ppm"
 done
-check "silhouettes_of_a_filter_are_refused" refuses "expected --method silhouette, or --reconstruct silhouette" render "$scene" \
+check "silhouettes_of_a_filter_are_refused" refuses "expected --reconstruct silhouette or silhouette-smooth" render "$scene" \
     --method silhouette --reconstruct pcf3 --silhouettes "$folder/new.ppm"
 check "crossings_have_no_picture" refuses "the map is one of crossings; expected --reconstruct silhouette or silhouette-smooth" \
     render "$scene" --method silhouette --reconstruct crossing --silhouettes "$folder/new.ppm"
