@@ -1467,6 +1467,25 @@ static void edges_that_part_texels_come_first(void)
     }
 }
 
+/* The sheet behind the strip, as deep as the light's box has room: nothing lies behind it but empty texels. */
+static void empty_texels_are_far(void)
+{
+    static uint8_t cells[SIDE * SIDE];
+    gn_statistics counts;
+    unsigned failures = 0;
+    for (int depth = 64000; depth < 65000; depth++) {
+        table t;
+        set_table(&t, SIDE, SIDE);
+        lay_sheet(&t, 128 + 768 + 64, -4096, 128 + 768 + 192, 9000, 1000);
+        lay_sheet(&t, 128 + 768 + 96, -4096, 9000, 9000, depth);
+        failures += draw_table(&t, cells, &counts) != GN_OK;
+        for (int row = 0; row < SIDE - 1; row++)
+            failures += cells[row * SIDE + 3] != 0x86;
+        clear_table(&t);
+    }
+    ok(!failures, "an empty texel is far behind an edge at any depth");
+}
+
 /* With mixed surfaces depths carry a mark. What lies just four texels behind an edge is as far in each region. */
 static void marks_do_not_move_depths(void)
 {
@@ -1656,6 +1675,12 @@ static void planning(void)
     status = status == GN_OK ? gn_light_pass(f.context, &t.light) : status;
     ok(status == GN_OK && !gn_silhouette_map(f.context, &stride) && !gn_silhouette_map(0, &stride) && frame_end(&f),
        "without silhouettes there is no map");
+    t.settings.reconstruction = &gn_silhouettes;
+    status = frame_start(&f, &t.scene, &t.settings);
+    int before = gn_silhouette_map(f.context, &stride) != 0;
+    status = status == GN_OK ? gn_light_pass(f.context, &t.light) : status;
+    ok(status == GN_OK && !before && gn_silhouette_map(f.context, &stride) && frame_end(&f),
+       "nor before the first light pass");
 
     static const gn_reconstruction *const drawn[] = {&gn_silhouettes, &gn_silhouettes_smooth};
     for (int i = 0; i < 2; i++) {
@@ -1748,6 +1773,7 @@ int main(int argc, char **argv)
     culled_faces_hide_nothing();
     the_nearest_edge_wins();
     edges_that_part_texels_come_first();
+    empty_texels_are_far();
     marks_do_not_move_depths();
     marks_hide_nothing();
     no_edge_is_passed_over();

@@ -232,6 +232,7 @@ static const hard_case cases[] = {
      .advice =
          "What is lower than a texel per length of the floor no map resolves: `volumes`, or a light box around what "
          "matters.",
+     .worse = 2.5, /* a cell is as long as all that is seen: of two corners half of 3 rows of 160 pixels each */
      .build = build_solid_at_1,
      .by_hand = at_1_by_hand,
      /* A row is 3.58 m long: its centre, x = -1.79, lies before all that is seen; constant, dual as at 0.1 degree.
@@ -247,6 +248,7 @@ static const hard_case cases[] = {
          "the row x < 0 holds the slab's side: constant, dual dark, 33 %. Second depth: the block's shadow, x < 0, is "
          "lit, 13 %: the texel's",
      .advice = "As above.",
+     .worse = 2.5, /* as at 1 degree */
      .build = build_solid_at_tenth,
      .by_hand = at_tenth_by_hand,
      /* Dark from 2 t behind the slab's front, outside of what is seen, to 0, where lit: 2.5 m^2 beside the block and

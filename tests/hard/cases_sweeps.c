@@ -319,7 +319,9 @@ static void run_cuts(hard_row *row)
         row_end(row);
         return;
     }
-    for (int method = 0; method < COLUMN_COUNT; method++) {
+    for (int method = 0; method < COLUMN_ALL; method++) {
+        if (method >= COLUMN_COUNT && method < COLUMN_SILHOUETTES)
+            continue;
         gn_settings s = method_settings(&row->packed, method, 0);
         row_measure(row, method, &s);
         for (size_t i = 0; row->outcomes[method].ran && i < COUNT(cuts); i++) {

@@ -20,7 +20,8 @@
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 /* What a case is rendered with: columns of the table. Those up to COLUMN_VOLUMES every case has; those with virtual
- * samples and their rivals only where the case is about what they change (WITH_RECEIVERS). */
+ * samples and their rivals only where the case is about what they change (WITH_RECEIVERS). Every case that has a scene
+ * is rendered with silhouettes and crossings as well, over mixed and virtual samples (check_borders). */
 enum column {
     COLUMN_CONSTANT,
     COLUMN_MIDPOINT,
@@ -34,9 +35,12 @@ enum column {
     COLUMN_ADAPTIVE,
     COLUMN_SLOPE,
     COLUMN_PLANE_BIAS,
-    COLUMN_FILTER, /* auto, 5 x 5 texels */
+    COLUMN_FILTER,      /* auto, 5 x 5 texels */
+    COLUMN_SILHOUETTES, /* mixed, virtual samples, silhouettes */
+    COLUMN_CROSSINGS,   /* the same with crossings */
     COLUMN_ALL,
-    COLUMN_COUNT = COLUMN_SECOND_VIRTUAL /* of those that every case has */
+    COLUMN_COUNT = COLUMN_SECOND_VIRTUAL,     /* of those that every case has */
+    COLUMN_RECEIVERS_END = COLUMN_SILHOUETTES /* of those of WITH_RECEIVERS */
 };
 
 enum { FILTER_RADIUS = 2 };
@@ -109,7 +113,7 @@ enum {
     CULL_BACK = 8,      /* midpoint: with back faces culled */
     CULL_NONE = 16,     /* dual: without culling */
     COUNT_TIES = 32,    /* pixels on an exact tie of the truth count as well: the case is about them */
-    WITH_RECEIVERS = 64 /* run the columns from COLUMN_SECOND_VIRTUAL on, too */
+    WITH_RECEIVERS = 64 /* run the columns up to COLUMN_RECEIVERS_END, too */
 };
 
 typedef struct hard_case {
@@ -123,7 +127,8 @@ typedef struct hard_case {
     unsigned flags;
     int picture;           /* method of the picture, + 1; 0: none */
     const char *receivers; /* WITH_RECEIVERS: what is expected of those columns */
-    expectation methods[COLUMN_ALL];
+    double worse; /* check_borders: per cent that silhouettes and crossings may err more than without; 0: as derived */
+    expectation methods[COLUMN_RECEIVERS_END];
 } hard_case;
 
 typedef struct hard_list {
@@ -131,7 +136,8 @@ typedef struct hard_list {
     size_t count;
 } hard_list;
 
-extern const hard_list papers_cases, light_cases, geometry_cases, number_cases, file_cases, sweep_cases;
+extern const hard_list papers_cases, light_cases, geometry_cases, silhouette_cases, number_cases, file_cases,
+    sweep_cases;
 
 /* Count a promise, and report it as a line of TAP unless a table is being made. reason: not 0 where it is known not to
  * hold: then it is a TODO. Returns condition. */
@@ -156,7 +162,8 @@ int method_render(packed_scene *packed, const gn_settings *settings, uint8_t **m
 
 /* Compare o->mask, which the method gave, with the row's truth. Of a filter every pixel counts as wrong that is not
  * wholly lit or wholly shadowed as in the truth, and as its own where the truth is the same at all centres it weighs.
- */
+ * Silhouettes and crossings choose among the four texels about a point: their own is what is wrong where the truth is
+ * the same at all centres within a texel. */
 void measure(hard_row *row, outcome *o, int method);
 
 double percent_of(const hard_row *row, uint64_t count);

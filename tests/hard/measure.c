@@ -1,6 +1,7 @@
 /* One method on one scene, and what is wrong with its mask. */
 #include "hard.h"
 
+#include "choices.h"
 #include "memory.h"
 #include "method.h"
 
@@ -11,18 +12,20 @@
 
 const char *const method_names[COLUMN_ALL] = {"constant", "midpoint",   "dual",           "second_depth",  "mixed",
                                               "auto",     "volumes",    "second_virtual", "mixed_virtual", "adaptive",
-                                              "slope",    "plane_bias", "filter"};
+                                              "slope",    "plane_bias", "filter",         "silhouettes",   "crossings"};
 
 gn_settings method_settings(const packed_scene *packed, int method, unsigned flags)
 {
-    static const int presets[COLUMN_ALL] = {GN_CONSTANT, GN_MIDPOINT,    GN_DUAL,    GN_SECOND, GN_MIXED,
-                                            METHOD_AUTO, METHOD_VOLUMES, GN_SECOND,  GN_MIXED,  METHOD_ADAPTIVE,
-                                            GN_SLOPE,    GN_CONSTANT,    METHOD_AUTO};
+    static const int presets[COLUMN_ALL] = {GN_CONSTANT, GN_MIDPOINT,       GN_DUAL,          GN_SECOND,
+                                            GN_MIXED,    METHOD_AUTO,       METHOD_VOLUMES,   GN_SECOND,
+                                            GN_MIXED,    METHOD_ADAPTIVE,   GN_SLOPE,         GN_CONSTANT,
+                                            METHOD_AUTO, METHOD_SILHOUETTE, METHOD_SILHOUETTE};
     gn_settings s = packed->settings;
     s.mask = 1;
     s.format = GN_NO_COLOUR;
     method_use(&s, packed, presets[method]);
-    if (method == COLUMN_CONSTANT || method == COLUMN_DUAL || method == COLUMN_MIXED || method == COLUMN_MIXED_VIRTUAL)
+    if (method == COLUMN_CONSTANT || method == COLUMN_DUAL || method == COLUMN_MIXED ||
+        method == COLUMN_MIXED_VIRTUAL || method >= COLUMN_SILHOUETTES)
         s.bias = packed->settings.bias;
     if (method == COLUMN_SECOND_VIRTUAL || method == COLUMN_MIXED_VIRTUAL)
         s.receiver = &gn_virtual;
@@ -33,6 +36,8 @@ gn_settings method_settings(const packed_scene *packed, int method, unsigned fla
     }
     if (method == COLUMN_FILTER)
         s.reconstruction = &gn_box_5x5;
+    if (method == COLUMN_CROSSINGS)
+        s.reconstruction = &gn_crossings;
     if (method == COLUMN_MIDPOINT && flags & CULL_BACK)
         s.cull = GN_CULL_BACK;
     if (method == COLUMN_DUAL && flags & CULL_NONE)
@@ -54,7 +59,7 @@ int method_render(packed_scene *packed, const gn_settings *settings, uint8_t **m
     gn_settings s = *settings;
     size_t count = (size_t)s.width * s.height;
     s.format = colour ? GN_RGB888 : GN_NO_COLOUR;
-    if (s.shadow == GN_SHADOW_VOLUMES && packed_make_edges(packed, 0, why))
+    if (choices_use_edges(&s) && packed_make_edges(packed, 0, why))
         return -1;
     int result = frame_open(&f, &packed->scene, &s, 0, why) || frame_light_pass(&f, &packed->light, why) ||
                          frame_camera_pass(&f, &packed->camera, why)
@@ -88,8 +93,9 @@ void measure(hard_row *row, outcome *o, int method)
     for (size_t i = 0; i < (size_t)t->width * t->height; i++) {
         if (row->near[i] || o->mask[i] == t->mask[i] || o->mask[i] == 255 || t->mask[i] == 255)
             continue;
-        int explained = method == COLUMN_FILTER ? footprint_differs_about(&row->footprint, i, t->mask[i], FILTER_RADIUS)
-                                                : footprint_differs(&row->footprint, i, t->mask[i]);
+        int radius = method == COLUMN_FILTER ? FILTER_RADIUS : method >= COLUMN_SILHOUETTES ? 1 : 0;
+        int explained = radius ? footprint_differs_about(&row->footprint, i, t->mask[i], radius)
+                               : footprint_differs(&row->footprint, i, t->mask[i]);
         if (!explained)
             *(t->mask[i] ? &o->own_shadow : &o->own_light) += 1;
     }
