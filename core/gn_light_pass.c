@@ -509,18 +509,22 @@ static void clear(gn_depth *layer, size_t count)
 }
 
 /* All triangles into a window of the map. */
-static GN_NOINLINE void draw_window(gn_context *context, gn_statistics *statistics, target *t, const gn_window *window)
+static GN_NOINLINE void draw_window(const gn_context *context, target *t, const gn_window *window)
 {
-    GN_TALLY(gn_tally tally = {0}; t->tally = &tally;)
-    (void)statistics;
     t->steep = 0;
     for (uint32_t i = 0; i < context->scene->object_count; i++) {
         t->open = !context->scene->objects[i].mesh->closed;
         insert_mesh(context, t, i, window);
     }
-    GN_TALLY(statistics->light_triangles += tally.triangles;)
-    GN_TALLY(statistics->light_texels += gn_tally_centres(&tally);)
 }
+
+#if GN_STATISTICS
+static void add_tally(gn_worker *worker, const gn_tally *tally)
+{
+    worker->statistics.light_triangles += tally->triangles;
+    worker->statistics.light_texels += gn_tally_centres(tally);
+}
+#endif
 
 gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
 {
@@ -539,7 +543,9 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     clear(context->map + (size_t)first_row * stride, (size_t)rows * stride);
     if (t.second)
         clear(t.second, (size_t)rows * stride);
-    draw_window(context, &w->statistics, &t, &window);
+    GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
+    draw_window(context, &t, &window);
+    GN_TALLY(add_tally(w, &tally);)
     const gn_drawing *drawing = gn_find_drawing(&context->settings);
     if (drawing)
         drawing->draw(context, region, worker);
@@ -556,7 +562,10 @@ void gn_nearest_row(gn_context *context, uint32_t worker, int32_t row, gn_depth 
     t.second_offset = 0;
     t.stride = 0; /* all rows are one */
     clear(depths, context->map_stride);
-    draw_window(context, &context->workers[worker].statistics, &t, &window);
+    GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
+    draw_window(context, &t, &window);
+    (void)worker;
+    GN_TALLY(add_tally(&context->workers[worker], &tally);)
 }
 
 const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t region, uint32_t worker,
