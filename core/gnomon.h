@@ -403,9 +403,8 @@ gn_status gn_volumes_region(gn_context *context, uint32_t region, uint32_t worke
 /* ---- statistics (GN_STATISTICS 1) ------------------------------------------------------------------------------ */
 
 typedef struct gn_statistics {
-    uint64_t
-        light_triangles;   /* set up in the light pass, each region counted, with silhouettes also the row after it */
-    uint64_t light_texels; /* covered by them */
+    /* set up in the light pass, each region counted, with silhouettes also the row after it; covered by them */
+    uint64_t light_triangles, light_texels;
     uint64_t camera_triangles; /* set up in the camera pass, each region counted */
     uint64_t camera_fragments; /* covered by them */
     uint64_t pixels_shaded;    /* pixels that see a surface */
@@ -417,8 +416,8 @@ typedef struct gn_statistics {
     uint64_t pixels_virtual;               /* decided by virtual samples */
     uint64_t pixels_fractional;            /* partly lit, by whatever samples */
     uint64_t texels_read, virtual_samples; /* depths compared in all; of them with virtual samples */
-    uint64_t
-        pixels_silhouette; /* decided by the silhouette or crossing map: P of Sen et al. is this over pixels_shaded */
+    /* decided by the silhouette or crossing map: P of Sen et al. is this over pixels_shaded */
+    uint64_t pixels_silhouette;
     uint64_t silhouette_edges;  /* of the latest light pass, or gn_volumes_light */
     uint64_t silhouette_texels; /* bytes of the map that hold a point or a crossing, summed over the light passes */
     uint64_t volume_faces;      /* set up in the camera pass, each region counted */

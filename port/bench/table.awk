@@ -1,4 +1,4 @@
-# Turns the counts of bench.c into a table, one column a target.
+# Turns the counts of bench.c and edges.c into a table, one column a target.
 #
 #     awk -f table.awk TARGET.count ...
 #
