@@ -234,6 +234,24 @@ typedef enum gn_surface {
     GN_SLOPE         /* z1 + slope (m - z1) + bias; m: least z + half a texel of its own slope, of all triangles */
 } gn_surface;
 
+/* The fit: which rectangle of the light's plane the map covers; none (0): what the light does. Linked only where named.
+ * A context with a fit or a warp needs gn_view_pass before gn_light_pass. docs/parameterisations.md. */
+typedef struct gn_fit gn_fit;
+extern const gn_fit gn_desired_view;    /* the bounds of what the camera sees (DV: Rosen 2012) */
+extern const gn_fit gn_minimal_frustum; /* the smallest rectangle about it, turned (MSF: Stamminger & Drettakis 2002) */
+
+/* The warp: where on that rectangle the texels lie, so that more of them lie where the camera sees more; none (0):
+ * evenly. Rectilinear: columns and rows of unequal width, planes stay linear (Rosen 2012). Non-orthogonal: a function
+ * of its own for each row and each column (Milet et al. 2015), twice the map's texels in 16-bit numbers; with no
+ * receiver or virtual samples, the nearest texel and any surface but GN_SLOPE. Texels are evaluated where they lie:
+ * triangles stay straight. */
+typedef struct gn_warp gn_warp;
+extern const gn_warp gn_rectilinear;          /* driven by how many pixels a column or row has */
+extern const gn_warp gn_rectilinear_distance; /* driven by the nearest point's distance to the eye */
+extern const gn_warp gn_nonorthogonal;
+/* Only triangles' corners are moved, as a GPU does it, and large triangles are wrong: for comparison. */
+extern const gn_warp gn_rectilinear_vertices, gn_nonorthogonal_vertices;
+
 /* The receiver: the depth with which a pixel is compared. Each is linked only where it is named; none (0): the depth
  * of the pixel's own point. All but that take the plane of the triangle that the pixel sees, as the light pass draws
  * it: 40 bytes an entry of GN_COLOUR_CACHE and worker. docs/shadow-test.md. */
@@ -297,6 +315,11 @@ typedef struct gn_settings {
     gn_q16_16 slope; /* of GN_SLOPE and gn_plane_bias: 0 to 64 */
     const gn_receiver *receiver;             /* 0: the point. Says nothing with volumes */
     const gn_reconstruction *reconstruction; /* 0: the nearest texel. The same */
+    const gn_fit *fit;                       /* 0: the light's own box or frustum. The same */
+    const gn_warp *warp;                     /* 0: texels of one size. The same */
+    gn_q16_16 smoothing;                     /* of warps: times the usual window; 1/64 to 64, 0: 1 */
+    uint8_t fit_depth; /* 1: with a fit of directional lights, stored depths span what the camera sees; what is
+                        * nearer to the light is taken to be at the near end. More depth resolution */
 } gn_settings;
 
 /* Second depth, the point, the nearest texel, everything else left to gn_make_plan and no bias: the least that a scene
@@ -304,16 +327,19 @@ typedef struct gn_settings {
 gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_size);
 
 typedef struct gn_plan {
-    size_t bytes;                 /* of the whole block: the maximum of the two passes */
+    size_t bytes;                 /* of the whole block: the maximum of the passes */
     size_t map_bytes;             /* of it: the shadow map, which stays between the passes */
     size_t silhouette_bytes;      /* of it: the silhouette or crossing map, which stays as well; 0 without */
     size_t light_bytes;           /* needed during the light pass, map included */
     size_t camera_bytes;          /* needed during the camera pass, map included */
+    size_t view_bytes;            /* needed during the view pass, which has no map; 0 without one */
+    size_t warp_bytes;            /* of the block: where the texels lie, which stays between the passes; 0 without */
     uint32_t triangles, vertices; /* of all objects; a mesh used twice counts twice */
     uint32_t edges;               /* the same; 0 where meshes have none */
     uint32_t light_regions, camera_regions;
     uint16_t region_width, region_height, map_rows; /* as chosen */
     uint8_t cull, layers;                           /* as chosen: never AUTO */
+    uint8_t view_rounds;                            /* of the view pass: 0 without, up to 3 */
 } gn_plan;
 
 #define GN_ALIGNMENT 8
@@ -330,11 +356,39 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
  * GN_TOO_SMALL, GN_MISALIGNED, or what gn_make_plan returns. */
 gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings *settings, void *memory, size_t bytes);
 
+/* ---- view pass (settings.fit, settings.warp) --------------------------------------------------------------------- */
+
+/* See what the camera sees from the light: visibility region by region, each visible point's place on the light's
+ * plane, and from all of them the fit and the warp, for the light passes that follow. No image is kept. light: that of
+ * the light pass. To be done anew when camera, light or models have moved; the shadow map is lost. Points that the
+ * camera of another pass sees beyond the fit are lit, with spot lights unlit.
+ * GN_UNSUPPORTED: neither fit nor warp, or shadow volumes; GN_OUT_OF_RANGE: as for gn_light_pass and gn_camera_pass. */
+gn_status gn_view_pass(gn_context *context, const gn_camera *camera, const gn_light *light);
+
+/* The same in steps: begin; then plan.view_rounds times: all camera regions, in any order, on any worker, and end,
+ * which ends the round. GN_NOT_READY: out of this order; GN_BAD_ARGUMENT: no such region or worker. */
+gn_status gn_view_begin(gn_context *context, const gn_camera *camera, const gn_light *light);
+gn_status gn_view_region(gn_context *context, uint32_t region, uint32_t worker);
+gn_status gn_view_end(gn_context *context);
+
+/* The rectangle of the light's plane that the map covers, after a view pass. The plane is the light's box or frustum,
+ * places count from its upper left corner in 2^-30 of its larger side, x to the right, y down. */
+typedef struct gn_rectangle {
+    gn_q2_30 cosine, sine; /* of the angle from x to the rectangle's rows */
+    int32_t low[2];        /* least x cosine + y sine, and least y cosine - x sine */
+    int32_t size[2];
+} gn_rectangle;
+gn_status gn_get_rectangle(const gn_context *context, gn_rectangle *rectangle);
+
+/* Where the centre of a texel lies in that rectangle: from its upper left corner, in 2^-32 of its sides. Without a
+ * warp the centre of a uniform map's. 0: no such texel. */
+int gn_texel_place(const gn_context *context, uint32_t column, uint32_t row, uint32_t place[2]);
+
 /* ---- light pass ------------------------------------------------------------------------------------------------ */
 
 /* Render the shadow map. It stays valid for any number of camera passes.
  * GN_OUT_OF_RANGE: the light or a model is outside its ranges, a vertex beyond GN_WORLD_MAX, or the scene more than
- * 8192 times as deep as the light's box. */
+ * 8192 times as deep as the light's box. GN_NOT_READY: a fit or a warp, and no view pass. */
 gn_status gn_light_pass(gn_context *context, const gn_light *light);
 
 /* The same in steps: begin; then for every region in any order, on any worker (0 .. workers-1, each used by one thread
