@@ -2,25 +2,27 @@
 #include "gn_warp_table.h"
 #include "gn_fixed.h"
 
-#include <string.h>
-
 /* ---- importance ------------------------------------------------------------------------------------------------ */
 
-void gn_importance_of_counts(uint32_t *value, uint32_t bins)
+/* (c + total / (10 bins)) times 10 bins: below 2^49. to may be count. */
+static void weigh_counts(uint32_t *to, const uint32_t *count, uint32_t bins)
 {
     uint64_t total = 0;
     uint32_t most = 0;
-    GN_ASSERT(bins && bins <= GN_FINE);
     for (uint32_t b = 0; b < bins; b++) {
-        total += value[b];
-        most = value[b] > most ? value[b] : most;
+        total += count[b];
+        most = count[b] > most ? count[b] : most;
     }
-    if (!total)
-        return;
-    /* c + total / (10 bins), times 10 bins: below 2^49. */
-    unsigned zeros = gn_leading_zeros_64(gn_multiply_u(most, 10 * bins) + total);
+    uint32_t high = (uint32_t)((gn_multiply_u(most, 10 * bins) + total) >> 31);
+    unsigned shift = high ? 32 - gn_leading_zeros(high) : 0;
     for (uint32_t b = 0; b < bins; b++)
-        value[b] = (uint32_t)(((gn_multiply_u(value[b], 10 * bins) + total) << (zeros - 1)) >> 32);
+        to[b] = (uint32_t)((gn_multiply_u(count[b], 10 * bins) + total) >> shift);
+}
+
+void gn_importance_of_counts(uint32_t *value, uint32_t bins)
+{
+    GN_ASSERT(bins && bins <= GN_FINE);
+    weigh_counts(value, value, bins);
 }
 
 void gn_importance_of_distances(uint32_t *value, uint32_t bins)
@@ -88,7 +90,12 @@ void gn_smooth_importance(uint32_t *value, uint32_t count, gn_q16_16 smoothing, 
         return;
     radius = radius < count ? radius : count - 1;
     uint32_t *weight = scratch + count;
-    memcpy(scratch, value, count * sizeof *value);
+    uint32_t all = 0;
+    for (uint32_t at = 0; at < count; at++)
+        all |= value[at];
+    unsigned shift = all ? gn_leading_zeros(all) : 0;
+    for (uint32_t at = 0; at < count; at++)
+        scratch[at] = value[at] << shift;
     for (uint32_t d = 0; d <= radius; d++)
         weight[d] = weight_at(d, sigma);
     for (uint32_t at = 0; at < count; at++)
@@ -100,46 +107,55 @@ void gn_smooth_importance(uint32_t *value, uint32_t count, gn_q16_16 smoothing, 
 /* All sums are times twice the number of texels: below 2^46 a bin, 2^59 in all. */
 typedef struct inverse {
     const uint32_t *importance;
-    uint32_t bins, bin, scale;
-    uint64_t step, target; /* of a texel; of the next texel's centre */
-    uint64_t below, rise;  /* running sum at the left end of the bin; what the bin adds */
-    unsigned digits;       /* of a place within a bin */
+    uint32_t bin, scale;
+    uint32_t columns, bins; /* as GN_FINE : bins, without a common factor of 2^n */
+    uint64_t step, target;  /* of a texel; of the next texel's centre */
+    uint64_t below, rise;   /* running sum at the left end of the bin; what the bin adds */
 } inverse;
 
 static void start_inverse(inverse *s, const uint32_t *importance, uint32_t bins, uint32_t texels, uint64_t total)
 {
     s->importance = importance;
-    s->bins = bins;
     s->bin = 0;
     s->scale = 2 * texels;
+    s->columns = GN_FINE;
+    s->bins = bins;
+    for (; !((s->columns | s->bins) & 1); s->columns >>= 1)
+        s->bins >>= 1;
     s->step = 2 * total;
     s->target = total;
     s->below = 0;
     s->rise = gn_multiply_u(importance[0], s->scale);
-    s->digits = gn_bits_for(GN_FINE / bins + 2);
 }
 
-/* floor(GN_FINE x) for the largest x, 0 <= x < 1, where the running sum is not above the texel's. */
+/* floor(n / d), below 2^14: n < 2^60, d < 2^59. */
+static uint32_t short_quotient(uint64_t n, uint64_t d)
+{
+    uint32_t quotient = 0, bit = 1;
+    if (!(n >> 32))
+        return d >> 32 ? 0 : (uint32_t)n / (uint32_t)d;
+    for (; d << 1 <= n; d <<= 1)
+        bit <<= 1;
+    for (; bit; bit >>= 1, d >>= 1)
+        if (n >= d) {
+            n -= d;
+            quotient |= bit;
+        }
+    return quotient;
+}
+
+/* floor(GN_FINE x) for the largest x, 0 <= x < 1, where the running sum is not above the texel's:
+ * GN_FINE / bins (bin + (target - below) / rise), whole columns left of the bin first. */
 static uint32_t next_place(inverse *s)
 {
     while (s->target - s->below >= s->rise) {
         s->below += s->rise;
         s->rise = gn_multiply_u(s->importance[++s->bin], s->scale);
     }
-    /* GN_FINE (bin + (target - below) / rise) / bins: whole columns left of the bin, then long division. */
-    uint32_t left = s->bin * GN_FINE, whole = left / s->bins, quotient = 0;
-    uint64_t rest = (left - whole * s->bins) * s->rise + (s->target - s->below) * GN_FINE;
-    uint64_t divisor = (s->bins * s->rise) << s->digits;
-    for (unsigned n = s->digits; n; n--) {
-        divisor >>= 1;
-        quotient <<= 1;
-        if (rest >= divisor) {
-            rest -= divisor;
-            quotient |= 1;
-        }
-    }
+    uint32_t left = s->bin * s->columns, whole = left / s->bins;
+    uint64_t rest = (left - whole * s->bins) * s->rise + (s->target - s->below) * s->columns;
     s->target += s->step;
-    return whole + quotient;
+    return whole + short_quotient(rest, s->bins * s->rise);
 }
 
 /* Columns left of a texel that no texel has taken if those before it stand closely packed. Strictly increasing
@@ -199,7 +215,8 @@ void gn_bend_lines(uint16_t *position, uint32_t texels, const uint16_t *count, u
     GN_ASSERT(lines && lines <= GN_FINE && bins && bins <= GN_FINE);
     uint64_t wide = gn_multiply_u(smoothing > 0 ? (uint32_t)smoothing : 0, lines) >> 21;
     uint32_t reach = wide < lines ? (uint32_t)wide : lines;
-    memset(sums, 0, bins * sizeof *sums);
+    for (uint32_t b = 0; b < bins; b++)
+        sums[b] = 0;
     /* `line` comes into reach of the line `reach` before it. */
     for (uint32_t line = 0; line < lines + reach; line++) {
         if (line < lines)
@@ -209,8 +226,7 @@ void gn_bend_lines(uint16_t *position, uint32_t texels, const uint16_t *count, u
             for (uint32_t b = 0; b < bins; b++)
                 sums[b] -= count[(line - 2 * reach - 1) * bins + b];
         if (line >= reach) {
-            memcpy(importance, sums, bins * sizeof *sums);
-            gn_importance_of_counts(importance, bins);
+            weigh_counts(importance, sums, bins);
             gn_place_texels(position + (line - reach) * texels, texels, importance, bins);
         }
     }

@@ -15,7 +15,7 @@
 #include "gnomon.h"
 
 /* Numbers of samples -> importance c + 1/10 of their mean: a bin without samples is 11 times as wide as one of an even
- * map at most. In units that make the largest one 2^30 to 2^31, cut; all 0 stays so. bins <= GN_FINE. */
+ * map at most. Times 10 bins; where that is 2^31 or more, divided by 2^n and cut. bins <= GN_FINE. */
 void gn_importance_of_counts(uint32_t *value, uint32_t bins);
 
 /* Least distance of the samples in a bin, 0xffffffff: no sample -> importance nearest / distance (0: no sample) + 1/100
@@ -24,7 +24,8 @@ void gn_importance_of_distances(uint32_t *value, uint32_t bins);
 
 /* Gaussian, sigma = smoothing count / 64 bins but less than 65536, cut beyond 4 sigma; weights are within 2^-11 of the
  * largest. What lies beyond the ends takes no part: the weights of the others sum up to 1. Below a quarter of a bin: as
- * it was. Cost: count * min(8 sigma, count). Memory: scratch, 2 count. count <= GN_FINE. */
+ * it was; else times 2^n as well, so that the largest takes 32 bits. Cost: count * min(8 sigma, count). Memory:
+ * scratch, 2 count. count <= GN_FINE. */
 void gn_smooth_importance(uint32_t *value, uint32_t count, gn_q16_16 smoothing, uint32_t *scratch);
 
 /* position[texel]: the fine column that contains the texel's centre, exactly; the right end of a gap where the running
