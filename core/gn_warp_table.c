@@ -162,7 +162,8 @@ static uint32_t next_place(inverse *s)
  * positions are room that never falls. */
 static uint32_t next_room(inverse *s, uint32_t texel, uint32_t most)
 {
-    return (uint32_t)gn_clamp((int64_t)next_place(s) - texel, 0, most);
+    uint32_t place = next_place(s), room = place > texel ? place - texel : 0;
+    return room < most ? room : most;
 }
 
 void gn_place_texels(uint16_t *position, uint32_t texels, const uint32_t *importance, uint32_t bins)
