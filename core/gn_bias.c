@@ -25,7 +25,8 @@ uint32_t gn_make_bias(const gn_context *context, const gn_bias *bias)
                 uint64_t product = gn_multiply_u((uint32_t)light->near_depth, (uint32_t)light->far_depth);
                 gn_scaled w = gn_scale(gn_square_root(product << 4), -2);
                 gn_scaled tangent = gn_scale(light->tan_half, -24);
-                gn_scaled inverse = gn_scaled_add(gn_scaled_divide(tangent, width), gn_scaled_divide(tangent, height));
+                gn_scaled inverse = gn_scaled_add(gn_scaled_divide(tangent, context->texels_across),
+                                                  gn_scaled_divide(tangent, context->texels_down));
                 unit = gn_scaled_multiply(unit, gn_scaled_multiply(w, inverse));
             }
         }

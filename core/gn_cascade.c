@@ -25,7 +25,11 @@ static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction 
                    gn_point_bits(context),
                    context->light.kind != GN_SPOT && context->shading.trusted == GN_WELL_INSIDE,
                    how->whole,
-                   context->drawn ? context->drawn->map : 0};
+                   context->drawn ? context->drawn->map : 0,
+                   context->grid ? context->grid->columns : 0,
+                   context->grid ? context->grid->rows : 0,
+                   how,
+                   context->grid};
     return l;
 }
 
@@ -82,7 +86,7 @@ static gn_vote_at_once *find_short_cut(const gn_context *context)
 {
     const gn_receiver *receiver = find_receiver(context);
     const gn_shading *s = &context->shading;
-    if (!receiver->nearest || find_reconstruction(context)->vote != receiver->nearest->vote)
+    if (!receiver->nearest || find_reconstruction(context)->vote != receiver->nearest->vote || context->fitting)
         return 0;
     if (context->light.kind == GN_SPOT)
         return receiver->spotlit;
@@ -96,6 +100,8 @@ static void vote(const gn_context *context, gn_worker *worker, const gn_reconstr
 {
     const gn_receiver *receiver = find_receiver(context);
     gn_find_points(context, points, q);
+    if (context->grid)
+        context->grid->place(lookup, points);
     if (receiver->prepare)
         receiver->prepare(context, worker, points);
     if (receiver->votes)
@@ -131,7 +137,7 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
         else
             vote(context, worker, how, &lookup, &points, q);
         if (receiver->resample && (points.open_count || !receiver->votes))
-            receiver->resample(context, worker, &lookup, &points, how->sample);
+            receiver->resample(context, worker, &lookup, &points, context->grid ? context->grid->sample : how->sample);
         else if (how->settle)
             how->settle(how, &lookup, &points);
 #if GN_STATISTICS

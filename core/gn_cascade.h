@@ -28,10 +28,13 @@ typedef struct gn_lookup {
     const gn_depth *map;
     uint32_t stride;
     uint32_t last_column, last_row;
-    uint32_t bits;              /* fraction bits of u and v, 8 to 18 */
-    uint32_t inside;            /* 1: no point lies at the border, but for what gn_index says */
-    uint32_t whole;             /* shares of the reconstruction */
-    const uint8_t *silhouettes; /* the silhouette or crossing map; 0 without */
+    uint32_t bits;                  /* fraction bits of u and v, 8 to 18 */
+    uint32_t inside;                /* 1: no point lies at the border, but for what gn_index says */
+    uint32_t whole;                 /* shares of the reconstruction */
+    const uint8_t *silhouettes;     /* the silhouette or crossing map; 0 without */
+    const uint16_t *columns, *rows; /* of gn_grid, where the map is warped: the plane of a receiver is in fine texels */
+    const gn_reconstruction *how;
+    const gn_grid *grid;
 } gn_lookup;
 
 /* The shadowed shares of a point that lies nowhere on the map. */

@@ -3,6 +3,7 @@
 #ifndef GN_CONTEXT_H
 #define GN_CONTEXT_H
 
+#include "gn_grid.h"
 #include "gn_vector.h"
 #include "gn_view.h"
 #include "gnomon.h"
@@ -12,6 +13,7 @@
 
 typedef struct gn_drawing gn_drawing;
 typedef struct gn_drawn gn_drawn;
+typedef struct gn_fitting gn_fitting;
 
 /* Colour pairs of triangles in view, kept per worker: a direct-mapped cache, a power of two. Trades RAM (24 bytes an
  * entry) against time; never changes a pixel. */
@@ -45,10 +47,12 @@ typedef struct gn_shading {
     uint8_t depth_bits;      /* fraction bits of depth in units of 1/65536 */
     uint8_t trusted; /* gn_inside: whether every point of the scene lies inside the light's box: no test needed */
     uint32_t near_w, far_w; /* spot: in the unit of coordinate[2] */
+    uint32_t width, height; /* columns and rows of the light's view: of the map, or of a warped map's fine ones */
 } gn_shading;
 
 typedef enum gn_phase {
     GN_PHASE_NONE,
+    GN_PHASE_VIEW, /* of the view pass */
     GN_PHASE_LIGHT,
     GN_PHASE_CAMERA_FAILED,
     GN_PHASE_CAMERA,
@@ -88,14 +92,17 @@ struct gn_context {
     uint32_t triangle_bits;     /* identifier = object << triangle_bits | triangle */
     struct gn_volumes *volumes; /* 0 with shadow maps */
     gn_drawn *drawn;            /* gn_drawing.h; 0 without */
+    gn_fitting *fitting;        /* gn_parameterisation.h; 0 without a fit and a warp */
+    const gn_grid *grid;        /* where the texels of a warped map lie; 0: evenly */
 
     gn_light light;
     gn_view light_view;
-    uint32_t bias;         /* in units of a 32-bit depth */
-    uint8_t light_trusted; /* gn_inside */
-    uint8_t phase;         /* gn_phase: whose turn it is to use the shared part */
-    uint8_t *progress;     /* gn_progress of each light region, written by whoever renders it */
-    uint32_t tan_squared;  /* spot: of half the opening, 19 fraction bits */
+    uint32_t bias;                        /* in units of a 32-bit depth */
+    uint8_t light_trusted;                /* gn_inside */
+    uint8_t phase;                        /* gn_phase: whose turn it is to use the shared part */
+    uint8_t *progress;                    /* gn_progress of each light region, written by whoever renders it */
+    uint32_t tan_squared;                 /* spot: of half the opening, 19 fraction bits */
+    gn_scaled texels_across, texels_down; /* spot: so many would be on its whole plane */
 
     gn_camera camera;
     gn_view camera_view;

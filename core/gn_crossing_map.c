@@ -129,7 +129,7 @@ const gn_drawing gn_draw_crossings = {gn_check_drawing, gn_lay_out_drawn, gn_lay
 
 const uint8_t *gn_crossing_map(const gn_context *context, uint32_t *stride)
 {
-    if (!context || context->phase == GN_PHASE_NONE || gn_find_drawing(&context->settings) != &gn_draw_crossings)
+    if (!context || context->phase < GN_PHASE_LIGHT || gn_find_drawing(&context->settings) != &gn_draw_crossings)
         return 0;
     *stride = context->settings.map_width;
     return context->drawn->map;

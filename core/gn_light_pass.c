@@ -13,118 +13,51 @@
 #include "gn_cascade.h"
 #include "gn_clip.h"
 #include "gn_drawing.h"
-#include "gn_tally.h"
-
-#define GN_DEPTH_SHIFT (32 - GN_DEPTH_BITS)
+#include "gn_layers.h"
+#include "gn_parameterisation.h"
 
 /* ---- spans ----------------------------------------------------------------------------------------------------- */
 
-typedef enum insertion { FIRST, TWO, TWICE, MARKED, RISING } insertion;
-
-typedef struct target {
-    gn_depth *first;       /* of the map's first row */
-    gn_depth *second;      /* of the region's first row; 0: the first layer alone */
-    int32_t second_offset; /* texels from the map's first row to the region's */
-    int32_t stride;
-    gn_depth_plane plane;
-    uint32_t open; /* 1: mark as open (mixed) */
-    uint32_t rise; /* h of the plane, units of z (slope) */
-    int steep;     /* too steep for plane: the other one */
-    gn_wide_plane steep_plane;
-    insertion how;
-#if GN_VECTOR_16
-    gn_u32x16 lanes; /* the plane's step to each of 16 texels */
-#endif
-    GN_TALLY(gn_tally *tally;)
-} target;
-
-/* The depths are stepped in 32 bits and cut to the stored width: 16-bit layers are the upper half of 32-bit ones. */
-GN_INLINE uint32_t start_depth(const target *t, int32_t row, int32_t left)
-{
-    return t->plane.base + (uint32_t)row * t->plane.dy + (uint32_t)left * t->plane.dx;
-}
-
-GN_INLINE void insert_first(gn_depth *z1, gn_depth v)
-{
-    if (v < *z1)
-        *z1 = v;
-}
-
-GN_INLINE void insert_two(gn_depth *z1, gn_depth *z2, gn_depth v)
-{
-    if (v < *z2) { /* usually not */
-        gn_depth nearest = *z1;
-        if (v < nearest) {
-            *z2 = nearest;
-            *z1 = v;
-        } else {
-            *z2 = v;
-        }
-    }
-}
-
-GN_INLINE void insert_twice(gn_depth *z1, gn_depth *z2, gn_depth v)
-{
-    if (v < *z2) {
-        *z2 = v;
-        if (v < *z1)
-            *z1 = v;
-    }
-}
-
-GN_INLINE gn_depth cut(uint32_t z, insertion how, uint32_t open)
-{
-    z >>= GN_DEPTH_SHIFT;
-    return (gn_depth)(how == MARKED ? (z & ~1u) | open : z);
-}
-
-/* z + h, held within the range. */
-GN_INLINE uint32_t risen(uint32_t z, uint32_t rise)
-{
-    uint32_t sum = z + rise;
-    return sum < rise ? 0xffffffffu : sum;
-}
-
 /* A triangle that is too steep for 32 bits covers few texels: one by one, and any way of insertion. */
-static GN_COLD void insert_steep_span(const target *t, int32_t row, int32_t left, int32_t right)
+static GN_COLD void insert_steep_span(const gn_layer_target *t, int32_t row, int32_t left, int32_t right)
 {
     int64_t depth = gn_wide_depth(&t->steep_plane, left, row);
     for (int32_t at = row * t->stride + left; left < right; left++, at++, depth += t->steep_plane.dx) {
         uint32_t z = gn_saturate(depth);
-        gn_depth *z1 = t->first + at, v = cut(z, t->how, t->open), old = *z1;
-        insert_first(z1, v);
-        if (t->how == FIRST)
+        gn_depth *z1 = t->first + at, v = gn_cut_layer(z, t->how, t->open), old = *z1;
+        gn_insert_first(z1, v);
+        if (t->how == GN_INSERT_FIRST)
             continue;
-        if (t->how == RISING)
-            v = cut(risen(z, t->rise), t->how, t->open);
-        else if (t->how != TWICE && v < old)
+        if (t->how == GN_INSERT_RISING)
+            v = gn_cut_layer(gn_risen(z, t->rise), t->how, t->open);
+        else if (t->how != GN_INSERT_TWICE && v < old)
             v = old;
-        insert_first(t->second + (at - t->second_offset), v);
+        gn_insert_first(t->second + (at - t->second_offset), v);
     }
 }
 
 #if !GN_VECTOR_16
-GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t z, insertion how)
+GN_INLINE void insert_span(const gn_layer_target *t, int32_t at, int32_t count, uint32_t z, gn_insertion how)
 {
     gn_depth *z1 = t->first + at, *end = z1 + count;
     uint32_t dx = t->plane.dx, open = t->open, rise = t->rise;
-    if (how == FIRST) {
+    if (how == GN_INSERT_FIRST) {
         do {
-            insert_first(z1, cut(z, how, open));
+            gn_insert_first(z1, gn_cut_layer(z, how, open));
             z += dx;
         } while (++z1 != end);
         return;
     }
     gn_depth *z2 = t->second + (at - t->second_offset);
     do {
-        gn_depth v = cut(z, how, open);
-        if (how == RISING) {
-            insert_first(z1, v);
-            insert_first(z2, cut(risen(z, rise), how, open));
-        } else if (how == TWICE) {
-            insert_twice(z1, z2, v);
+        gn_depth v = gn_cut_layer(z, how, open);
+        if (how == GN_INSERT_RISING) {
+            gn_insert_first(z1, v);
+            gn_insert_first(z2, gn_cut_layer(gn_risen(z, rise), how, open));
+        } else if (how == GN_INSERT_TWICE) {
+            gn_insert_twice(z1, z2, v);
         } else {
-            insert_two(z1, z2, v);
+            gn_insert_two(z1, z2, v);
         }
         z1++;
         z2++;
@@ -155,26 +88,26 @@ GN_INLINE gn_depthx16 cut_lanes(gn_u32x16 z)
 }
 
 /* Insert 16 depths; lanes that are all ones in far insert the farthest depth, which changes nothing. */
-GN_INLINE void insert_lanes(const target *t, int32_t at, gn_u32x16 depth, gn_depthx16 far, insertion how)
+GN_INLINE void insert_lanes(const gn_layer_target *t, int32_t at, gn_u32x16 depth, gn_depthx16 far, gn_insertion how)
 {
     gn_depthx16 v = cut_lanes(depth);
-    if (how == MARKED)
+    if (how == GN_INSERT_MARKED)
         v = (v & (gn_depth)~1u) | (gn_depth)t->open;
     v |= far;
     gn_depthx16 *first = (gn_depthx16 *)(void *)(t->first + at), old = *first;
     *first = nearer(v, old);
-    if (how == RISING) {
+    if (how == GN_INSERT_RISING) {
         gn_depthx16 *least = (gn_depthx16 *)(void *)(t->second + (at - t->second_offset));
         gn_u32x16 sum = depth + t->rise;
         *least = nearer(*least, cut_lanes(sum | (gn_u32x16)(sum < t->rise)) | far);
-    } else if (how != FIRST) {
+    } else if (how != GN_INSERT_FIRST) {
         gn_depthx16 *second = (gn_depthx16 *)(void *)(t->second + (at - t->second_offset));
-        *second = nearer(*second, how == TWICE ? v : farther(v, old));
+        *second = nearer(*second, how == GN_INSERT_TWICE ? v : farther(v, old));
     }
 }
 
 /* 16 texels at a time, beginning at the left end. */
-GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t z, insertion how)
+GN_INLINE void insert_span(const gn_layer_target *t, int32_t at, int32_t count, uint32_t z, gn_insertion how)
 {
     static const gn_depthx16 lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     gn_u32x16 depth = t->lanes + z;
@@ -189,58 +122,58 @@ GN_INLINE void insert_span(const target *t, int32_t at, int32_t count, uint32_t 
 #define SPAN(name, how)                                                                                                \
     GN_INLINE void name(const void *state, int32_t row, int32_t left, int32_t right)                                   \
     {                                                                                                                  \
-        const target *t = state;                                                                                       \
+        const gn_layer_target *t = state;                                                                              \
         GN_TALLY(t->tally->centres += (uint32_t)(right - left);)                                                       \
-        insert_span(t, row * t->stride + left, right - left, start_depth(t, row, left), how);                          \
+        insert_span(t, row * t->stride + left, right - left, gn_start_depth(t, row, left), how);                       \
     }
-SPAN(span_first, FIRST)
+SPAN(span_first, GN_INSERT_FIRST)
 
 #if GN_VECTOR_16
 GN_INLINE void span_steep(const void *state, int32_t row, int32_t left, int32_t right)
 {
-    const target *t = state;
+    const gn_layer_target *t = state;
     GN_TALLY(t->tally->centres += (uint32_t)(right - left);)
     insert_steep_span(t, row, left, right);
 }
-SPAN(span_two, TWO)
-SPAN(span_twice, TWICE)
-SPAN(span_marked, MARKED)
-SPAN(span_rising, RISING)
+SPAN(span_two, GN_INSERT_TWO)
+SPAN(span_twice, GN_INSERT_TWICE)
+SPAN(span_marked, GN_INSERT_MARKED)
+SPAN(span_rising, GN_INSERT_RISING)
 
 #define TINY(name, how)                                                                                                \
     GN_INLINE void name(const void *state, int32_t row, int32_t column, gn_i32x16 outside)                             \
     {                                                                                                                  \
-        const target *t = state;                                                                                       \
+        const gn_layer_target *t = state;                                                                              \
         GN_TALLY(t->tally->lanes_16 -= outside >= 0;)                                                                  \
         gn_depthx16 far = cut_lanes((gn_u32x16)(outside < 0));                                                         \
-        insert_lanes(t, row * t->stride + column, t->lanes + start_depth(t, row, column), far, how);                   \
+        insert_lanes(t, row * t->stride + column, t->lanes + gn_start_depth(t, row, column), far, how);                \
     }
-TINY(tiny_first, FIRST)
-TINY(tiny_two, TWO)
-TINY(tiny_twice, TWICE)
-TINY(tiny_marked, MARKED)
-TINY(tiny_rising, RISING)
+TINY(tiny_first, GN_INSERT_FIRST)
+TINY(tiny_two, GN_INSERT_TWO)
+TINY(tiny_twice, GN_INSERT_TWICE)
+TINY(tiny_marked, GN_INSERT_MARKED)
+TINY(tiny_rising, GN_INSERT_RISING)
 #else
 /* Flash before time: all ways of insertion share one walk, and choose by span; only the first layer has one of its own.
  */
 GN_INLINE void span_any(const void *state, int32_t row, int32_t left, int32_t right)
 {
-    const target *t = state;
+    const gn_layer_target *t = state;
     int32_t at = row * t->stride + left, count = right - left;
-    uint32_t z = start_depth(t, row, left);
+    uint32_t z = gn_start_depth(t, row, left);
     GN_TALLY(t->tally->centres += (uint32_t)count;)
     if (GN_UNLIKELY(t->steep))
         insert_steep_span(t, row, left, right);
-    else if (t->how == FIRST)
-        insert_span(t, at, count, z, FIRST);
-    else if (t->how == TWO)
-        insert_span(t, at, count, z, TWO);
-    else if (t->how == TWICE)
-        insert_span(t, at, count, z, TWICE);
-    else if (t->how == MARKED)
-        insert_span(t, at, count, z, MARKED);
+    else if (t->how == GN_INSERT_FIRST)
+        insert_span(t, at, count, z, GN_INSERT_FIRST);
+    else if (t->how == GN_INSERT_TWO)
+        insert_span(t, at, count, z, GN_INSERT_TWO);
+    else if (t->how == GN_INSERT_TWICE)
+        insert_span(t, at, count, z, GN_INSERT_TWICE);
+    else if (t->how == GN_INSERT_MARKED)
+        insert_span(t, at, count, z, GN_INSERT_MARKED);
     else
-        insert_span(t, at, count, z, RISING);
+        insert_span(t, at, count, z, GN_INSERT_RISING);
 }
 #endif
 
@@ -248,7 +181,7 @@ GN_INLINE void span_any(const void *state, int32_t row, int32_t left, int32_t ri
 
 #if GN_VECTOR_16
 #define WALK(name, span, tiny)                                                                                         \
-    static GN_NOINLINE void name(const target *t, const gn_rows *rows, const gn_window *window)                        \
+    static GN_NOINLINE void name(const gn_layer_target *t, const gn_rows *rows, const gn_window *window)               \
     {                                                                                                                  \
         if (!gn_walk_tiny_16(rows, window, tiny, t))                                                                   \
             gn_walk(rows, window, rows->cut, span, t);                                                                 \
@@ -259,26 +192,26 @@ WALK(walk_twice, span_twice, tiny_twice)
 WALK(walk_marked, span_marked, tiny_marked)
 WALK(walk_rising, span_rising, tiny_rising)
 
-static void walk_any(const target *t, const gn_rows *rows, const gn_window *window)
+static void walk_any(const gn_layer_target *t, const gn_rows *rows, const gn_window *window)
 {
     if (t->steep)
         gn_walk(rows, window, rows->cut, span_steep, t);
-    else if (t->how == TWO)
+    else if (t->how == GN_INSERT_TWO)
         walk_two(t, rows, window);
-    else if (t->how == TWICE)
+    else if (t->how == GN_INSERT_TWICE)
         walk_twice(t, rows, window);
-    else if (t->how == MARKED)
+    else if (t->how == GN_INSERT_MARKED)
         walk_marked(t, rows, window);
     else
         walk_rising(t, rows, window);
 }
 #else
-static GN_NOINLINE void walk_any(const target *t, const gn_rows *rows, const gn_window *window)
+static GN_NOINLINE void walk_any(const gn_layer_target *t, const gn_rows *rows, const gn_window *window)
 {
     gn_walk(rows, window, rows->cut, span_any, t);
 }
 
-static GN_NOINLINE void walk_first(const target *t, const gn_rows *rows, const gn_window *window)
+static GN_NOINLINE void walk_first(const gn_layer_target *t, const gn_rows *rows, const gn_window *window)
 {
     if (GN_UNLIKELY(rows->cut))
         walk_any(t, rows, window);
@@ -296,16 +229,16 @@ static int culled_sign(const gn_context *context, uint32_t object)
     return context->objects[object].mirrored ? -sign : sign;
 }
 
-static insertion choose_insertion(const gn_context *context, const gn_mesh *mesh)
+static gn_insertion choose_insertion(const gn_context *context, const gn_mesh *mesh)
 {
     if (context->settings.surface == GN_SLOPE)
-        return RISING;
+        return GN_INSERT_RISING;
     if (context->settings.surface == GN_MIXED)
-        return MARKED;
-    return context->settings.surface == GN_SECOND && !mesh->closed ? TWICE : TWO;
+        return GN_INSERT_MARKED;
+    return context->settings.surface == GN_SECOND && !mesh->closed ? GN_INSERT_TWICE : GN_INSERT_TWO;
 }
 
-static void set_lanes(target *t)
+static void set_lanes(gn_layer_target *t)
 {
 #if GN_VECTOR_16
     static const gn_u32x16 lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -316,12 +249,14 @@ static void set_lanes(target *t)
 }
 
 /* One clockwise triangle whose plane is set. */
-GN_INLINE void insert(target *t, const gn_rows *rows, const gn_window *window)
+GN_INLINE void insert(gn_layer_target *t, const gn_rows *rows, const gn_window *window)
 {
-    if (t->how == FIRST) {
+    if (GN_UNLIKELY(t->walk != 0)) {
+        t->walk(t, rows);
+    } else if (t->how == GN_INSERT_FIRST) {
         walk_first(t, rows, window);
     } else {
-        if (t->how == RISING)
+        if (t->how == GN_INSERT_RISING)
             t->rise = (uint32_t)gn_rise((int32_t)t->plane.dx, (int32_t)t->plane.dy);
         walk_any(t, rows, window);
     }
@@ -329,7 +264,7 @@ GN_INLINE void insert(target *t, const gn_rows *rows, const gn_window *window)
 }
 
 /* One whose plane is too steep for 32 bits. */
-static GN_COLD void insert_steep(target *t, const gn_mesh *mesh, const gn_vertex *vertices, uint32_t triangle,
+static GN_COLD void insert_steep(gn_layer_target *t, const gn_mesh *mesh, const gn_vertex *vertices, uint32_t triangle,
                                  const gn_rows *rows, const gn_window *window)
 {
     uint32_t index[3];
@@ -340,14 +275,17 @@ static GN_COLD void insert_steep(target *t, const gn_mesh *mesh, const gn_vertex
     t->rise = gn_saturate(gn_rise(t->steep_plane.dx, t->steep_plane.dy));
     t->steep = 1;
     set_lanes(t);
-    walk_any(t, rows, window);
+    if (t->walk)
+        t->walk(t, rows);
+    else
+        walk_any(t, rows, window);
     t->steep = 0;
     GN_TALLY(t->tally->triangles++;)
 }
 
 /* A triangle with a corner beyond the planes or the guard band. */
-static GN_COLD void insert_clipped(const gn_context *context, target *t, const gn_object *object, uint32_t triangle,
-                                   int culled, const gn_window *window)
+static GN_COLD void insert_clipped(const gn_context *context, gn_layer_target *t, const gn_object *object,
+                                   uint32_t triangle, int culled, const gn_window *window)
 {
     uint32_t index[3];
     gn_place corner[3];
@@ -365,14 +303,14 @@ static GN_COLD void insert_clipped(const gn_context *context, target *t, const g
             insert(t, &rows, window);
 }
 
-static void insert_mesh(const gn_context *context, target *t, uint32_t object_index, const gn_window *window)
+static void insert_mesh(const gn_context *context, gn_layer_target *t, uint32_t object_index, const gn_window *window)
 {
     const gn_object *object = &context->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
     const gn_vertex *vertices = context->vertices + context->objects[object_index].first_vertex;
     int culled = culled_sign(context, object_index), clips = context->objects[object_index].clips;
     uint32_t count = mesh->triangle_count, flip = culled > 0 ? 0 : 0x80000000u;
-    t->how = t->second ? choose_insertion(context, mesh) : FIRST;
+    t->how = t->second ? choose_insertion(context, mesh) : GN_INSERT_FIRST;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t index[3];
         gn_triangle_indices(mesh, i, index);
@@ -479,8 +417,12 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
     context->phase = GN_PHASE_NONE;
     gn_lay_out_light(context, &context->plan, &context->settings);
     context->light = *light;
-    gn_status status =
-        gn_make_light_view(&context->light_view, light, context->settings.map_width, context->settings.map_height);
+    context->texels_across = gn_scale(context->settings.map_width, 0);
+    context->texels_down = gn_scale(context->settings.map_height, 0);
+    const gn_parameterisation *parameterisation = gn_find_parameterisation(&context->settings);
+    gn_status status = parameterisation ? parameterisation->make_view(context)
+                                        : gn_make_light_view(&context->light_view, light, context->settings.map_width,
+                                                             context->settings.map_height);
     int32_t largest_w;
     int inside;
     if (status == GN_OK)
@@ -508,13 +450,17 @@ static void clear(gn_depth *layer, size_t count)
         layer[i] = GN_FARTHEST;
 }
 
-/* All triangles into a window of the map. */
-static GN_NOINLINE void draw_window(const gn_context *context, target *t, const gn_window *window)
+/* All triangles into the rows [row, end) of the map. */
+static GN_NOINLINE void draw_rows(const gn_context *context, gn_layer_target *t, uint32_t row, uint32_t end)
 {
+    gn_window window = {0, (int32_t)row, context->settings.map_width, (int32_t)end};
     t->steep = 0;
+    t->walk = 0;
+    if (context->grid)
+        context->grid->aim(context->grid, t, &window);
     for (uint32_t i = 0; i < context->scene->object_count; i++) {
         t->open = !context->scene->objects[i].mesh->closed;
-        insert_mesh(context, t, i, window);
+        insert_mesh(context, t, i, &window);
     }
 }
 
@@ -534,8 +480,7 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     if (context->phase != GN_PHASE_LIGHT)
         return GN_NOT_READY;
     gn_worker *w = &context->workers[worker];
-    gn_window window = {0, (int32_t)first_row, context->settings.map_width, (int32_t)(first_row + rows)};
-    target t;
+    gn_layer_target t;
     t.first = context->map;
     t.second = w->second;
     t.second_offset = (int32_t)(first_row * stride);
@@ -544,7 +489,7 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     if (t.second)
         clear(t.second, (size_t)rows * stride);
     GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
-    draw_window(context, &t, &window);
+    draw_rows(context, &t, first_row, first_row + rows);
     GN_TALLY(add_tally(w, &tally);)
     const gn_drawing *drawing = gn_find_drawing(&context->settings);
     if (drawing)
@@ -555,15 +500,14 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
 
 void gn_nearest_row(gn_context *context, uint32_t worker, int32_t row, gn_depth *depths)
 {
-    gn_window window = {0, row, context->settings.map_width, row + 1};
-    target t;
+    gn_layer_target t;
     t.first = depths;
     t.second = 0;
     t.second_offset = 0;
     t.stride = 0; /* all rows are one */
     clear(depths, context->map_stride);
     GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
-    draw_window(context, &t, &window);
+    draw_rows(context, &t, (uint32_t)row, (uint32_t)row + 1);
     (void)worker;
     GN_TALLY(add_tally(&context->workers[worker], &tally);)
 }

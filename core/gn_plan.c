@@ -1,6 +1,7 @@
 /* Planning: what a scene needs, checked and laid out before anything is rendered. */
 #include "gn_cascade.h"
 #include "gn_drawing.h"
+#include "gn_parameterisation.h"
 #include "gn_volumes.h"
 
 gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_size)
@@ -149,6 +150,13 @@ const gn_drawing *gn_find_drawing(const gn_settings *settings)
     return settings->shadow == GN_SHADOW_MAP && settings->reconstruction ? settings->reconstruction->drawing : 0;
 }
 
+const gn_parameterisation *gn_find_parameterisation(const gn_settings *settings)
+{
+    if (settings->shadow != GN_SHADOW_MAP)
+        return 0;
+    return settings->fit ? settings->fit->hooks : settings->warp ? settings->warp->hooks : 0;
+}
+
 /* Texels from one row of the map to the next. */
 static uint32_t map_stride(const gn_settings *settings)
 {
@@ -186,9 +194,9 @@ static uint64_t lay_out_volumes(gn_context *context, uint64_t from, const gn_pla
     return used - from;
 }
 
-/* Head of the block: what stays between the passes. Returns its size. */
+/* Head of the block: what stays between the passes. Returns its size; *before_map: of what a view pass leaves of it. */
 static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const gn_settings *settings,
-                             const gn_plan *plan)
+                             const gn_plan *plan, uint64_t *before_map)
 {
     int volumes = settings->shadow == GN_SHADOW_VOLUMES;
     uint8_t *base = (uint8_t *)context;
@@ -196,6 +204,10 @@ static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const g
     gn_object_state *objects = gn_take(base, &used, (uint64_t)scene->object_count * sizeof *objects);
     gn_worker *workers = gn_take(base, &used, (uint64_t)settings->workers * sizeof *workers);
     uint8_t *progress = gn_take(base, &used, plan->light_regions);
+    const gn_parameterisation *parameterisation = gn_find_parameterisation(settings);
+    if (parameterisation)
+        used = parameterisation->lay_out_head(context, used, settings);
+    *before_map = used;
     gn_depth *map =
         gn_take(base, &used, volumes ? 0 : (uint64_t)map_stride(settings) * settings->map_height * sizeof *map);
     if (context) {
@@ -305,10 +317,16 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
     p.camera_regions = (settings->width + width - 1) / width * ((settings->height + height - 1) / height);
     if (settings->shadow == GN_SHADOW_VOLUMES)
         p.light_regions = 0;
-    uint64_t head = lay_out_head(0, scene, settings, &p), light = head, camera = head;
+    const gn_parameterisation *parameterisation = gn_find_parameterisation(settings);
+    if (parameterisation)
+        status = parameterisation->plan(&p, settings);
+    if (status != GN_OK)
+        return status;
+    uint64_t before_map, head = lay_out_head(0, scene, settings, &p, &before_map), light = head, camera = head;
     light += settings->shadow == GN_SHADOW_VOLUMES ? 0 : gn_lay_out_light(0, &p, settings);
     camera += gn_lay_out_camera(0, &p, settings);
-    if (light > SIZE_MAX || camera > SIZE_MAX)
+    uint64_t view = parameterisation ? before_map + parameterisation->lay_out_view(0, &p, settings) : 0;
+    if (light > SIZE_MAX || camera > SIZE_MAX || view > SIZE_MAX)
         return GN_TOO_MANY;
     if (settings->shadow == GN_SHADOW_MAP)
         p.map_bytes = (size_t)map_stride(settings) * settings->map_height * sizeof(gn_depth);
@@ -316,7 +334,9 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
         p.silhouette_bytes = (size_t)settings->map_width * settings->map_height;
     p.light_bytes = (size_t)light;
     p.camera_bytes = (size_t)camera;
+    p.view_bytes = (size_t)view;
     p.bytes = p.light_bytes > p.camera_bytes ? p.light_bytes : p.camera_bytes;
+    p.bytes = p.view_bytes > p.bytes ? p.view_bytes : p.bytes;
     *plan = p;
     return GN_OK;
 }
@@ -343,7 +363,8 @@ gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings
         c->settings.reconstruction = 0;
     }
     c->plan = plan;
-    lay_out_head(c, scene, settings, &plan);
+    uint64_t before_map;
+    lay_out_head(c, scene, settings, &plan, &before_map);
     gn_plan counted;
     counts found;
     (void)check_scene(scene, &counted, &found);

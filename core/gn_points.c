@@ -3,6 +3,7 @@
  *
  * Points outside a directional light's box are lit, outside a spot light's frustum shadowed; neither has a texel. */
 #include "gn_cascade.h"
+#include "gn_parameterisation.h"
 
 /* Never below 8, so that a place within a texel has a meaning; spot lights have all there is. */
 uint32_t gn_point_bits(const gn_context *context)
@@ -70,7 +71,6 @@ static void find_spot(const gn_context *context, gn_points *points, uint32_t *q)
     const gn_shading *s = &context->shading;
     const gn_view *light = &context->light_view;
     gn_runner u = points->row[0], v = points->row[1], d = points->row[2];
-    uint32_t width = context->settings.map_width, height = context->settings.map_height;
     for (int32_t i = 0; i < points->count; i++) {
         uint32_t w = q[i], left = gn_step(&u, w), top = gn_step(&v, w), distance = gn_step(&d, w);
         q[i] = 0;
@@ -79,8 +79,12 @@ static void find_spot(const gn_context *context, gn_points *points, uint32_t *q)
         if (gn_outside_frustum(s, left, top, distance))
             continue; /* unlit */
         uint32_t nearness = gn_divide_place(s, &left, &top, distance);
-        points->u[i] = (uint32_t)(gn_multiply_u(left, width) >> 12) - GN_SPOT_HALF;
-        points->v[i] = (uint32_t)(gn_multiply_u(top, height) >> 12) - GN_SPOT_HALF;
+        uint32_t u_on_map = (uint32_t)(gn_multiply_u(left, s->width) >> 12) - GN_SPOT_HALF;
+        uint32_t v_on_map = (uint32_t)(gn_multiply_u(top, s->height) >> 12) - GN_SPOT_HALF;
+        if (context->fitting && !context->fitting->find_place(context->fitting, &left, &top))
+            continue;
+        points->u[i] = u_on_map;
+        points->v[i] = v_on_map;
         points->z[i] = gn_spot_depth(light, nearness);
         q[i] = gn_over_distance(nearness, left, top, context->tan_squared);
     }

@@ -76,8 +76,8 @@ GN_INLINE uint32_t gn_compare(uint32_t z, gn_depth stored)
  * gn_shading has them. */
 GN_INLINE int gn_outside_box(const gn_context *context, uint32_t u, uint32_t v, uint32_t z)
 {
-    uint32_t bits = context->shading.position_bits;
-    return u >> bits >= context->settings.map_width || v >> bits >= context->settings.map_height || z >> 31;
+    const gn_shading *s = &context->shading;
+    return u >> s->position_bits >= s->width || v >> s->position_bits >= s->height || z >> 31;
 }
 
 GN_INLINE uint32_t gn_hold_depth(uint32_t z, uint32_t bits)

@@ -133,6 +133,8 @@ gn_status gn_make_shading(gn_context *context, int32_t largest_w)
     gn_scaled w_unit = make_w_unit(context, largest_w);
     expression e[3];
     shading->trusted = context->light_trusted;
+    shading->width = (uint32_t)light->half_width >> 7;
+    shading->height = (uint32_t)light->half_height >> 7;
     if (light->affine) {
         e[0] = make_expression(context, &light->row[0], light->centre_x, -8, w_unit);
         e[1] = make_expression(context, &light->row[1], light->centre_y, -8, w_unit);

@@ -181,7 +181,7 @@ const gn_drawing gn_draw_silhouettes = {gn_check_drawing, gn_lay_out_drawn, lay_
 
 const uint8_t *gn_silhouette_map(const gn_context *context, uint32_t *stride)
 {
-    if (!context || context->phase == GN_PHASE_NONE || gn_find_drawing(&context->settings) != &gn_draw_silhouettes)
+    if (!context || context->phase < GN_PHASE_LIGHT || gn_find_drawing(&context->settings) != &gn_draw_silhouettes)
         return 0;
     *stride = context->settings.map_width;
     return context->drawn->map;

@@ -1,50 +1,273 @@
-/* Fits and warps: see gnomon.h. */
-#include "gnomon.h"
+/* The view pass: what the camera sees, seen from the light. Visibility region by region as in the camera pass, then
+ * each visible point's place on the light's plane; sums of these are all that is kept. A round for the fit, then those
+ * of the warp, whose places count within the fitted rectangle.
+ *
+ * Memory: from the map's place on, so a map is lost: what the camera pass needs for visibility, and the sums. */
+#include "gn_bins.h"
+#include "gn_parameterisation.h"
 
-struct gn_fit {
-    int unused;
-};
+/* ---- planning ---------------------------------------------------------------------------------------------------- */
 
-struct gn_warp {
-    int unused;
-};
-
-const gn_fit gn_desired_view = {0}, gn_minimal_frustum = {0};
-const gn_warp gn_rectilinear = {0}, gn_rectilinear_distance = {0}, gn_nonorthogonal = {0};
-const gn_warp gn_rectilinear_vertices = {0}, gn_nonorthogonal_vertices = {0};
-
-gn_status gn_view_pass(gn_context *context, const gn_camera *camera, const gn_light *light)
+static gn_status plan_rounds(gn_plan *plan, const gn_settings *s)
 {
-    (void)context, (void)camera, (void)light;
-    return GN_UNSUPPORTED;
+    const gn_warp *warp = s->warp;
+    if (s->smoothing && (s->smoothing < (1 << 10) || s->smoothing > (64 << 16)))
+        return GN_OUT_OF_RANGE;
+    if (s->fit_depth > 1)
+        return GN_BAD_ARGUMENT;
+    if (warp && (s->map_width > GN_FINE || s->map_height > GN_FINE))
+        return GN_UNSUPPORTED;
+    if (warp && warp->bent &&
+        (s->reconstruction || s->surface == GN_SLOPE || (s->receiver && s->receiver->votes && !s->receiver->resample)))
+        return GN_UNSUPPORTED;
+    plan->view_rounds = (uint8_t)((s->fit ? 1 : 0) + (warp ? warp->round_count : 0));
+    plan->warp_bytes = warp ? (size_t)warp->table_bytes(s) : 0;
+    return GN_OK;
+}
+
+/* Bytes of the sums of one worker. */
+static uint64_t count_sums(const gn_settings *s)
+{
+    uint64_t most = s->fit ? s->fit->round.bytes(s) : 0;
+    for (int i = 0; s->warp && i < s->warp->round_count; i++) {
+        uint64_t bytes = s->warp->rounds[i].bytes(s);
+        most = bytes > most ? bytes : most;
+    }
+    return (most + GN_ALIGNMENT - 1) / GN_ALIGNMENT * GN_ALIGNMENT;
+}
+
+static uint64_t lay_out_head(gn_context *context, uint64_t used, const gn_settings *s)
+{
+    uint8_t *base = (uint8_t *)context;
+    gn_fitting *fitting = gn_take(base, &used, sizeof *fitting);
+    uint16_t *tables = gn_take(base, &used, s->warp ? s->warp->table_bytes(s) : 0);
+    if (context) {
+        gn_fitting none = {0};
+        *fitting = none;
+        context->fitting = fitting;
+        fitting->find_place = gn_find_place_on_plane;
+        fitting->grid.width = s->map_width;
+        fitting->grid.height = s->map_height;
+        if (s->warp)
+            s->warp->lay_out(context, tables);
+        if (!s->receiver && !s->reconstruction)
+            context->settings.reconstruction = &gn_nearest;
+    }
+    return used;
+}
+
+static uint64_t lay_out_view(gn_context *context, const gn_plan *plan, const gn_settings *settings)
+{
+    gn_settings s = *settings;
+    s.format = GN_NO_COLOUR;
+    s.mask = 0;
+    s.receiver = 0;
+    s.reconstruction = 0;
+    uint8_t *base = context ? (uint8_t *)context->map : 0, *shared = context ? context->shared : 0;
+    if (context)
+        context->shared = base;
+    uint64_t used = gn_lay_out_camera(context, plan, &s), bytes = count_sums(&s);
+    uint8_t *sums = gn_take(base, &used, s.workers * bytes);
+    if (context) {
+        context->shared = shared;
+        context->fitting->sums = sums;
+        context->fitting->sums_bytes = bytes;
+    }
+    return used;
+}
+
+static gn_status make_view(gn_context *context)
+{
+    gn_fitting *fitting = context->fitting;
+    int32_t width = context->settings.map_width, height = context->settings.map_height;
+    if (!fitting->seen)
+        return GN_NOT_READY;
+    context->texels_across = gn_scaled_divide(context->texels_across, gn_scale(fitting->rectangle.size[0], -30));
+    context->texels_down = gn_scaled_divide(context->texels_down, gn_scale(fitting->rectangle.size[1], -30));
+    return gn_make_fitted_view(&context->light_view, &context->light, &fitting->rectangle,
+                               context->grid ? GN_FINE : width, context->grid ? GN_FINE : height);
+}
+
+const gn_parameterisation gn_fit_and_warp = {plan_rounds, lay_out_head, lay_out_view, make_view};
+
+/* ---- rounds ------------------------------------------------------------------------------------------------------ */
+
+static const gn_round *find_round(const gn_context *context)
+{
+    const gn_settings *s = &context->settings;
+    uint32_t round = context->fitting->round;
+    if (s->fit && round == 0)
+        return &s->fit->round;
+    return &s->warp->rounds[round - (s->fit ? 1 : 0)];
+}
+
+static uint8_t *sums_of(const gn_fitting *fitting, uint32_t worker)
+{
+    return fitting->sums + (size_t)(worker * fitting->sums_bytes);
+}
+
+/* From the light's view of the rectangle to shading, and empty sums. */
+static gn_status begin_round(gn_context *context)
+{
+    gn_fitting *fitting = context->fitting;
+    context->light = fitting->light;
+    gn_status status =
+        gn_make_fitted_view(&context->light_view, &context->light, &fitting->rectangle, GN_FINE, GN_FINE);
+    if (status != GN_OK)
+        return status;
+    context->light_trusted = GN_NOT_INSIDE;
+    status = gn_make_shading(context, fitting->largest_w);
+    for (uint32_t i = 0; status == GN_OK && i < context->settings.workers; i++)
+        find_round(context)->clear(&context->settings, sums_of(fitting, i));
+    return status;
 }
 
 gn_status gn_view_begin(gn_context *context, const gn_camera *camera, const gn_light *light)
 {
-    (void)context, (void)camera, (void)light;
-    return GN_UNSUPPORTED;
+    if (!context || !camera || !light)
+        return GN_BAD_ARGUMENT;
+    gn_fitting *fitting = context->fitting;
+    if (!fitting)
+        return GN_UNSUPPORTED;
+    context->phase = GN_PHASE_NONE;
+    fitting->seen = 0;
+    fitting->fitted = 0;
+    fitting->round = 0;
+    fitting->light = *light;
+    (void)lay_out_view(context, &context->plan, &context->settings);
+    context->camera = *camera;
+    int inside;
+    gn_status status = gn_make_light_view(&context->light_view, light, GN_FINE, GN_FINE);
+    if (status == GN_OK)
+        status = gn_make_camera_view(&context->camera_view, camera, context->settings.width, context->settings.height);
+    if (status == GN_OK)
+        status = gn_transform_scene(context, &context->camera_view, &fitting->largest_w, &inside);
+    if (status == GN_OK)
+        status = gn_make_bins(context, &context->camera_view);
+    if (status != GN_OK)
+        return status;
+    gn_whole_plane(&fitting->rectangle, light);
+    if (context->settings.fit) /* places count in one unit along both axes */
+        fitting->rectangle.size[0] = fitting->rectangle.size[1] = 1 << 30;
+    status = begin_round(context);
+    if (status == GN_OK)
+        context->phase = GN_PHASE_VIEW;
+    return status;
+}
+
+static void gather_row(const gn_context *context, gn_worker *worker, void *sums, uint32_t from, int32_t x, int32_t y,
+                       int32_t count)
+{
+    const gn_round *round = find_round(context);
+    uint32_t *q = worker->q + from, w[GN_BLOCK];
+    gn_points points;
+    if (!context->camera_view.affine)
+        gn_row_of_w(q, count, context->shading.w_shift);
+    points.x = x;
+    points.y = y;
+    gn_start_points(context, &points);
+    for (int32_t done = 0; done < count; done += GN_BLOCK, q += GN_BLOCK) {
+        points.triangle = worker->triangle + from + done;
+        points.x = x + done;
+        points.count = count - done < GN_BLOCK ? count - done : GN_BLOCK;
+        for (int32_t i = 0; i < points.count; i++)
+            w[i] = q[i];
+        gn_find_points(context, &points, q);
+        for (int32_t i = 0; i < points.count; i++)
+            if (points.triangle[i] == GN_NO_TRIANGLE)
+                points.u[i] = GN_NOWHERE;
+        round->add(context, sums, &points, w);
+    }
 }
 
 gn_status gn_view_region(gn_context *context, uint32_t region, uint32_t worker)
 {
-    (void)context, (void)region, (void)worker;
-    return GN_UNSUPPORTED;
+    gn_window window;
+    gn_pixels pixels;
+    void *none = 0;
+    if (context && !context->fitting)
+        return GN_UNSUPPORTED;
+    gn_status status = gn_find_region(context, region, worker, GN_PHASE_VIEW, &none, 0, &pixels, &window);
+    if (status != GN_OK)
+        return status;
+    gn_worker *w = &context->workers[worker];
+#if GN_STATISTICS
+    gn_statistics before = w->statistics; /* these count the camera pass */
+#endif
+    gn_rasterise_region(context, w, &window);
+    for (uint32_t row = 0; row < pixels.height; row++)
+        gather_row(context, w, sums_of(context->fitting, worker), row * pixels.width, window.column0,
+                   window.row0 + (int32_t)row, pixels.width);
+#if GN_STATISTICS
+    w->statistics = before;
+#endif
+    return GN_OK;
 }
 
 gn_status gn_view_end(gn_context *context)
 {
-    (void)context;
-    return GN_UNSUPPORTED;
+    if (!context)
+        return GN_BAD_ARGUMENT;
+    gn_fitting *fitting = context->fitting;
+    if (!fitting)
+        return GN_UNSUPPORTED;
+    if (context->phase != GN_PHASE_VIEW)
+        return GN_NOT_READY;
+    const gn_round *round = find_round(context);
+    for (uint32_t i = 1; i < context->settings.workers; i++)
+        round->merge(&context->settings, sums_of(fitting, 0), sums_of(fitting, i));
+    round->end(context, sums_of(fitting, 0));
+    context->phase = GN_PHASE_NONE;
+    fitting->round++;
+    if (fitting->round == context->plan.view_rounds) {
+        fitting->seen = 1;
+        return GN_OK;
+    }
+    gn_status status = begin_round(context);
+    if (status == GN_OK)
+        context->phase = GN_PHASE_VIEW;
+    return status;
 }
+
+gn_status gn_view_pass(gn_context *context, const gn_camera *camera, const gn_light *light)
+{
+    gn_status status = gn_view_begin(context, camera, light);
+    for (uint32_t round = 0; status == GN_OK && round < context->plan.view_rounds; round++) {
+        for (uint32_t i = 0; status == GN_OK && i < context->plan.camera_regions; i++)
+            status = gn_view_region(context, i, 0);
+        if (status == GN_OK)
+            status = gn_view_end(context);
+    }
+    return status;
+}
+
+/* ---- what was found ---------------------------------------------------------------------------------------------- */
 
 gn_status gn_get_rectangle(const gn_context *context, gn_rectangle *rectangle)
 {
-    (void)context, (void)rectangle;
-    return GN_UNSUPPORTED;
+    if (!context || !rectangle)
+        return GN_BAD_ARGUMENT;
+    if (!context->fitting)
+        return GN_UNSUPPORTED;
+    if (!context->fitting->seen)
+        return GN_NOT_READY;
+    *rectangle = context->fitting->rectangle;
+    return GN_OK;
 }
 
 int gn_texel_place(const gn_context *context, uint32_t column, uint32_t row, uint32_t place[2])
 {
-    (void)context, (void)column, (void)row, (void)place;
-    return 0;
+    const gn_settings *s = &context->settings;
+    if (!context->fitting || !context->fitting->seen || column >= s->map_width || row >= s->map_height)
+        return 0;
+    if (context->grid) {
+        int32_t fine[2];
+        gn_find_fine(context->grid, (int32_t)column, (int32_t)row, fine);
+        for (int i = 0; i < 2; i++)
+            place[i] = ((uint32_t)(2 * fine[i] + 1)) << (31 - GN_FINE_BITS);
+        return 1;
+    }
+    place[0] = gn_divide((uint64_t)(2 * column + 1) << 31, s->map_width);
+    place[1] = gn_divide((uint64_t)(2 * row + 1) << 31, s->map_height);
+    return 1;
 }
