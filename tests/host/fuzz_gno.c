@@ -29,6 +29,7 @@ static void draw(packed_scene *packed, gn_shadow shadow)
     problem why;
     packed->settings.shadow = (uint8_t)shadow;
     if (frame_open(&f, &packed->scene, &packed->settings, 1, &why) == 0 &&
+        frame_view_pass(&f, &packed->camera, &packed->light, &why) == 0 &&
         frame_light_pass(&f, &packed->light, &why) == 0)
         drawn += frame_camera_pass(&f, &packed->camera, &why) == 0;
     frame_close(&f);
