@@ -1,6 +1,7 @@
 #include "choices.h"
 
 #include <assert.h>
+#include <stdio.h>
 
 #define LENGTH(values) (sizeof values / sizeof *values)
 /* An array of negative length where the table is too long. */
@@ -54,9 +55,26 @@ static const choice reconstructions[] = {
     {"crossing", "&gn_crossings", &gn_crossings},
 };
 
+/* The first of these two is no word of --parameterise: without a fit and without a warp a map is uniform. */
+static const choice fits[] = {
+    {"uniform", "0", 0},
+    {"dv", "&gn_desired_view", &gn_desired_view},
+    {"msf", "&gn_minimal_frustum", &gn_minimal_frustum},
+};
+
+static const choice warps[] = {
+    {"uniform", "0", 0},
+    {"rectilinear", "&gn_rectilinear", &gn_rectilinear},
+    {"rectilinear-distance", "&gn_rectilinear_distance", &gn_rectilinear_distance},
+    {"nonorthogonal", "&gn_nonorthogonal", &gn_nonorthogonal},
+    {"rectilinear-vertices", "&gn_rectilinear_vertices", &gn_rectilinear_vertices},
+    {"nonorthogonal-vertices", "&gn_nonorthogonal_vertices", &gn_nonorthogonal_vertices},
+};
+
 const choices choices_shadow = TABLE(shadows), choices_cull = TABLE(culls), choices_layers = TABLE(layers),
               choices_surface = TABLE(surfaces), choices_bias_unit = TABLE(bias_units),
-              choices_receiver = TABLE(receivers), choices_reconstruction = TABLE(reconstructions);
+              choices_receiver = TABLE(receivers), choices_reconstruction = TABLE(reconstructions),
+              choices_fit = TABLE(fits), choices_warp = TABLE(warps);
 
 int choices_number(const choices *of, const void *object)
 {
@@ -77,6 +95,21 @@ int choices_have_silhouettes(const gn_settings *settings)
     const gn_reconstruction *how = settings->reconstruction;
     return settings->shadow == GN_SHADOW_MAP &&
            (how == &gn_silhouettes || how == &gn_silhouettes_smooth || how == &gn_crossings);
+}
+
+int choices_use_view(const gn_settings *settings)
+{
+    return settings->shadow == GN_SHADOW_MAP && (settings->fit || settings->warp);
+}
+
+void choices_parameterisation(const gn_settings *settings, char words[PARAMETERISATION_SIZE])
+{
+    const char *fit = choices_fit.all[choices_number(&choices_fit, settings->fit)].word;
+    const char *warp = choices_warp.all[choices_number(&choices_warp, settings->warp)].word;
+    if (settings->fit && settings->warp)
+        snprintf(words, PARAMETERISATION_SIZE, "%s+%s", fit, warp);
+    else
+        snprintf(words, PARAMETERISATION_SIZE, "%s", settings->fit ? fit : warp);
 }
 
 int choices_use_edges(const gn_settings *settings)

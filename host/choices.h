@@ -12,7 +12,7 @@
 typedef struct choice {
     const char *word;
     const char *identifier; /* as an initialiser in a C header */
-    const void *object;     /* of receivers and reconstructions; 0: what the core does where none is named */
+    const void *object;     /* of what the core links by name; 0: what it does where none is named */
 } choice;
 
 typedef struct choices {
@@ -23,7 +23,7 @@ typedef struct choices {
 enum { CHOICES_MOST = 12 }; /* no table is longer: choices.c does not compile otherwise */
 
 extern const choices choices_shadow, choices_cull, choices_layers, choices_surface, choices_bias_unit;
-extern const choices choices_receiver, choices_reconstruction;
+extern const choices choices_receiver, choices_reconstruction, choices_fit, choices_warp;
 
 /* The number of the object, which must be one of them. */
 int choices_number(const choices *of, const void *object);
@@ -34,6 +34,14 @@ int choices_use_slope(const gn_settings *settings);
 /* Does the light pass make a silhouette map, or one of crossings? Shadow volumes, which have no map at all, say nothing
  * of one. */
 int choices_have_silhouettes(const gn_settings *settings);
+
+/* Is the map fitted or warped to what the camera sees, in a view pass before the light pass? */
+int choices_use_view(const gn_settings *settings);
+
+enum { PARAMETERISATION_SIZE = 40 };
+
+/* What --parameterise takes for the settings: uniform, a fit, a warp, or the two with + between them. */
+void choices_parameterisation(const gn_settings *settings, char words[PARAMETERISATION_SIZE]);
 
 /* Are meshes to have their edges: for shadow volumes, or for silhouettes? */
 int choices_use_edges(const gn_settings *settings);

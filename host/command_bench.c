@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-const char bench_summary[] = "measure the light pass and the camera pass of a scene";
+const char bench_summary[] = "measure the passes of a scene";
 
 enum { WORK = RENDER_OPTION_COUNT, BENCH_HEAD = WORK + WORK_OPTION_COUNT, RUNS, JSON, HELP, OPTION_COUNT };
 
@@ -40,7 +40,7 @@ static void help(void)
 }
 
 typedef struct times {
-    double *light, *camera, *frame; /* milliseconds */
+    double *view, *light, *camera, *frame; /* milliseconds */
     int count;
 } times;
 
@@ -61,16 +61,19 @@ static int measure(frame *f, const packed_scene *packed, times *t, problem *why)
     enum { WARM_UP = 3 };
     progress p = progress_start("bench");
     for (int i = -WARM_UP; i < t->count; i++) {
-        if (frame_light_pass(f, &packed->light, why) || frame_camera_pass(f, &packed->camera, why))
+        if (frame_view_pass(f, &packed->camera, &packed->light, why) || frame_light_pass(f, &packed->light, why) ||
+            frame_camera_pass(f, &packed->camera, why))
             return -1;
         progress_show(&p, (unsigned)(i + WARM_UP), (unsigned)(t->count + WARM_UP));
         if (i < 0)
             continue;
+        t->view[i] = 1e3 * f->view_seconds;
         t->light[i] = 1e3 * f->light_seconds;
         t->camera[i] = 1e3 * f->camera_seconds;
-        t->frame[i] = t->light[i] + t->camera[i];
+        t->frame[i] = t->view[i] + t->light[i] + t->camera[i];
     }
     progress_end(&p);
+    qsort(t->view, (size_t)t->count, sizeof *t->view, by_size);
     qsort(t->light, (size_t)t->count, sizeof *t->light, by_size);
     qsort(t->camera, (size_t)t->count, sizeof *t->camera, by_size);
     qsort(t->frame, (size_t)t->count, sizeof *t->frame, by_size);
@@ -89,6 +92,8 @@ static void print(const frame *f, int scale, const times *t)
     printf(", region %d x %d, workers %d, runs %d\n", f->plan.region_width, f->plan.region_height, s->workers,
            t->count);
     printf("pass      median ms   least ms\n");
+    if (choices_use_view(s))
+        printf("view     %10.3f %10.3f\n", median(t->view, t->count), t->view[0]);
     printf("light    %10.3f %10.3f\n", median(t->light, t->count), t->light[0]);
     printf("camera   %10.3f %10.3f\n", median(t->camera, t->count), t->camera[0]);
     printf("frame    %10.3f %10.3f\n", median(t->frame, t->count), t->frame[0]);
@@ -118,6 +123,8 @@ static int write_json(const char *path, const char *scene, const frame *f, int s
     json_integer(&w, "region_height", f->plan.region_height);
     json_integer(&w, "workers", f->settings.workers);
     json_integer(&w, "runs", t->count);
+    if (choices_use_view(&f->settings))
+        write_pass(&w, "view", t->view, t->count);
     write_pass(&w, "light", t->light, t->count);
     write_pass(&w, "camera", t->camera, t->count);
     write_pass(&w, "frame", t->frame, t->count);
@@ -144,6 +151,7 @@ static int bench(packed_scene *packed, frame *f, times *t, const char *scene, co
     if (!settings.region_width)
         use_large_regions(&settings);
     t->count = (int)runs;
+    t->view = memory_take((size_t)runs, sizeof *t->view);
     t->light = memory_take((size_t)runs, sizeof *t->light);
     t->camera = memory_take((size_t)runs, sizeof *t->camera);
     t->frame = memory_take((size_t)runs, sizeof *t->frame);
@@ -172,6 +180,7 @@ int command_bench(int argc, char **argv)
         result = bench(&packed, &f, &t, line.places[0], values, &why);
     if (result)
         fprintf(stderr, "%s\n", why.text);
+    free(t.view);
     free(t.light);
     free(t.camera);
     free(t.frame);

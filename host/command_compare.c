@@ -177,7 +177,7 @@ static void print(const comparison *c)
 /* What is not given stays as it is. */
 static int read_limit(const char *name, const char *value, double most, double *number, problem *why)
 {
-    return value ? option_decimal(name, value, most, number, why) : 0;
+    return value ? option_decimal(name, value, 0, most, number, why) : 0;
 }
 
 typedef struct request {

@@ -55,7 +55,7 @@ static int pack(packed_scene *packed, const char *scene, const char *const value
         return -1;
     int chosen = 0;
     for (int i = RENDER_METHOD; i <= RENDER_RECONSTRUCT; i++)
-        chosen |= values[i] && i != RENDER_PARAMETERISE;
+        chosen |= values[i] != 0;
     if (render_options_read(&packed->settings, packed, values, why))
         return -1;
     packed->has_method |= chosen;

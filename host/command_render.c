@@ -3,11 +3,13 @@
 #include "commands.h"
 #include "file.h"
 #include "frame.h"
+#include "grid_picture.h"
 #include "image.h"
 #include "json.h"
 #include "render_options.h"
 #include "settings_report.h"
 #include "silhouette_picture.h"
+#include "warp_report.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -25,6 +27,7 @@ enum {
     OUTPUT_SECOND_DEPTH,
     OUTPUT_MAP,
     OUTPUT_SILHOUETTES,
+    OUTPUT_GRID,
     OUTPUT_STATS,
     OUTPUT_HASH,
     WORK,
@@ -45,8 +48,14 @@ static const option table[OPTION_COUNT] = {
      "the silhouette map over the depths that pixels are compared with (near:\n"
      "bright), 1 to 16 pixels a texel: red points, joined by orange lines from 8\n"
      "pixels on. Of --reconstruct silhouette and silhouette-smooth"},
+    {"--grid", "FILE",
+     "where the texels lie: lines through their centres, orange along columns and\n"
+     "blue along rows, over the depths of the light's whole plane; a red frame is\n"
+     "what the map covers. With a fit or a warp"},
     {"--stats", "FILE.json", "sizes, memory, counts and times"},
-    {"--hash", 0, "print a hash for each stage: layers, map, silhouettes where there are, mask, colour"},
+    {"--hash", 0,
+     "print a hash for each stage: warp and silhouettes where there are,\n"
+     "layers, map, mask, colour"},
     WORK_OPTIONS,
     {"--verbose", 0, "say on standard error what was read, planned and tested"},
     {"--help", 0, "this text"},
@@ -90,7 +99,8 @@ static int check_outputs(job *j)
 {
     static const int depths[] = {OUTPUT_DEPTH, OUTPUT_SECOND_DEPTH, OUTPUT_MAP};
     const char **values = j->values;
-    int any = values[OUTPUT_IMAGE] || values[OUTPUT_MASK] || values[OUTPUT_STATS] || wants_layers(j);
+    int any =
+        values[OUTPUT_IMAGE] || values[OUTPUT_MASK] || values[OUTPUT_GRID] || values[OUTPUT_STATS] || wants_layers(j);
     if (!any)
         return problem_of_usage(&j->why, "nothing to write; expected -o FILE or another output (gnomon render --help)");
     if (values[OUTPUT_IMAGE] && image_can_write(values[OUTPUT_IMAGE], 3, IMAGE_U8, &j->why))
@@ -103,6 +113,8 @@ static int check_outputs(job *j)
             return -1;
     }
     if (values[OUTPUT_SILHOUETTES] && image_can_write(values[OUTPUT_SILHOUETTES], 3, IMAGE_U8, &j->why))
+        return -1;
+    if (values[OUTPUT_GRID] && image_can_write(values[OUTPUT_GRID], 3, IMAGE_U8, &j->why))
         return -1;
     if (values[OUTPUT_STATS] && file_can_write(values[OUTPUT_STATS], &j->why))
         return -1;
@@ -126,6 +138,8 @@ static void say_what_was_read(const job *j)
     fprintf(stderr, "; %zu bytes, of them %zu for the map", plan->bytes, plan->map_bytes);
     if (plan->silhouette_bytes)
         fprintf(stderr, ", %zu for its silhouettes", plan->silhouette_bytes);
+    if (plan->warp_bytes)
+        fprintf(stderr, ", %zu for where its texels lie", plan->warp_bytes);
     fputs("\n", stderr);
 }
 
@@ -189,6 +203,37 @@ static int write_silhouettes(job *j, const char *path)
     image im = silhouette_picture(j->frame.map, j->settings.map_width, j->settings.map_height, map, stride);
     int result = image_write(&im, path, &j->why);
     image_free(&im);
+    return result;
+}
+
+/* The light's whole plane as a uniform map, and nothing else of a frame. */
+static int open_plane(job *j, frame *plane)
+{
+    uint16_t size[2];
+    grid_picture_size(&j->packed.light, size);
+    gn_settings settings = gn_default_settings(1, 1, size[0]);
+    settings.map_height = size[1];
+    settings.surface = GN_CONSTANT;
+    settings.workers = j->settings.workers;
+    return frame_open(plane, &j->packed.scene, &settings, 1, &j->why) ||
+                   frame_light_pass(plane, &j->packed.light, &j->why)
+               ? -1
+               : 0;
+}
+
+static int write_grid(job *j, const char *path)
+{
+    frame plane;
+    int result = open_plane(j, &plane);
+    if (!result) {
+        uint32_t(*places)[2] = frame_texel_places(&j->frame);
+        image im = grid_picture(plane.map, plane.settings.map_width, plane.settings.map_height, &j->frame.rectangle,
+                                places, j->settings.map_width, j->settings.map_height);
+        result = image_write(&im, path, &j->why);
+        image_free(&im);
+        free(places);
+    }
+    frame_close(&plane);
     return result;
 }
 
@@ -258,6 +303,30 @@ static void write_statistics(json *j, const frame *f)
     write_bandwidth(j, f, &s);
 }
 
+static void write_range(json *j, const char *name, const double range[2])
+{
+    json_open(j, name);
+    json_number(j, "least", range[0]);
+    json_number(j, "largest", range[1]);
+    json_close(j);
+}
+
+static void write_warp(json *j, const job *of)
+{
+    const gn_settings *s = &of->settings;
+    if (!choices_use_view(s))
+        return;
+    uint32_t(*places)[2] = frame_texel_places(&of->frame);
+    warp_report report = warp_report_make(&of->frame.rectangle, &of->packed.light, places, s->map_width, s->map_height);
+    free(places);
+    json_open(j, "warp");
+    json_number(j, "covered_percent", 100 * report.share);
+    json_number(j, "angle_degrees", report.angle);
+    write_range(j, "column_magnification", report.columns);
+    write_range(j, "row_magnification", report.rows);
+    json_close(j);
+}
+
 static void write_plan(json *j, const gn_settings *s, const gn_plan *plan, int scale)
 {
     json_open(j, "settings");
@@ -275,6 +344,10 @@ static void write_plan(json *j, const gn_settings *s, const gn_plan *plan, int s
     json_integer(j, "map", (int64_t)plan->map_bytes);
     if (plan->silhouette_bytes)
         json_integer(j, "silhouettes", (int64_t)plan->silhouette_bytes);
+    if (plan->view_bytes) {
+        json_integer(j, "warp", (int64_t)plan->warp_bytes);
+        json_integer(j, "view_pass", (int64_t)plan->view_bytes);
+    }
     json_integer(j, "light_pass", (int64_t)plan->light_bytes);
     json_integer(j, "camera_pass", (int64_t)plan->camera_bytes);
     json_close(j);
@@ -283,6 +356,8 @@ static void write_plan(json *j, const gn_settings *s, const gn_plan *plan, int s
 static void write_hashes(json *j, const frame *f)
 {
     json_open(j, "hashes");
+    if (choices_use_view(&f->settings))
+        json_hash(j, "warp", frame_hash_warp(f));
     json_hash(j, "layers", frame_hash_layers(f));
     json_hash(j, "map", frame_hash_map(f));
     if (choices_have_silhouettes(&f->settings))
@@ -309,9 +384,12 @@ static int write_stats_file(job *j)
         json_number(&w, "largest_rounding_world_units", j->packed.largest_rounding);
     write_plan(&w, &j->settings, &j->frame.plan, j->packed.scale);
     write_statistics(&w, &j->frame);
+    write_warp(&w, j);
     if (j->values[OUTPUT_HASH])
         write_hashes(&w, &j->frame);
     json_open(&w, "milliseconds");
+    if (choices_use_view(&j->settings))
+        json_number(&w, "view_pass", 1e3 * j->frame.view_seconds);
     json_number(&w, "light_pass", 1e3 * j->frame.light_seconds);
     json_number(&w, "camera_pass", 1e3 * j->frame.camera_seconds);
     json_close(&w);
@@ -321,6 +399,8 @@ static int write_stats_file(job *j)
 
 static void print_hashes(const frame *f)
 {
+    if (choices_use_view(&f->settings))
+        printf("warp %016" PRIx64 "\n", frame_hash_warp(f));
     printf("layers %016" PRIx64 "\n", frame_hash_layers(f));
     printf("map %016" PRIx64 "\n", frame_hash_map(f));
     if (choices_have_silhouettes(&f->settings))
@@ -340,6 +420,8 @@ static int write_outputs(job *j)
     if (values[OUTPUT_MAP] && write_depths(j, values[OUTPUT_MAP], f->map))
         return -1;
     if (values[OUTPUT_SILHOUETTES] && write_silhouettes(j, values[OUTPUT_SILHOUETTES]))
+        return -1;
+    if (values[OUTPUT_GRID] && write_grid(j, values[OUTPUT_GRID]))
         return -1;
     if (values[OUTPUT_MASK] && write_pixels(j, values[OUTPUT_MASK], f->mask, 1))
         return -1;
@@ -377,10 +459,14 @@ static int render(job *j)
         return problem_of_usage(&j->why,
                                 "--silhouettes, but the map is one of crossings; expected --reconstruct silhouette or "
                                 "silhouette-smooth");
+    if (j->values[OUTPUT_GRID] && !choices_use_view(&j->settings))
+        return problem_of_usage(&j->why,
+                                "--grid, but the map is uniform; expected --parameterise with a fit or a warp");
     if (j->values[OUTPUT_SECOND_DEPTH] && j->frame.layer_count < 2)
         return problem_of_usage(&j->why,
                                 "--second-depth, but the method keeps one layer; expected a method with two layers");
-    if (frame_light_pass(&j->frame, &j->packed.light, &j->why) ||
+    if (frame_view_pass(&j->frame, &j->packed.camera, &j->packed.light, &j->why) ||
+        frame_light_pass(&j->frame, &j->packed.light, &j->why) ||
         frame_camera_pass(&j->frame, &j->packed.camera, &j->why))
         return -1;
     if (j->values[VERBOSE])

@@ -1,5 +1,6 @@
 #include "frame.h"
 
+#include "choices.h"
 #include "memory.h"
 #include "status.h"
 
@@ -105,6 +106,11 @@ static gn_status run_light_region(frame *f, uint32_t region, uint32_t worker)
     return status;
 }
 
+static gn_status run_view_region(frame *f, uint32_t region, uint32_t worker)
+{
+    return gn_view_region(f->context, region, worker);
+}
+
 static void copy_region(const frame *f, const gn_pixels *p)
 {
     size_t width = f->settings.width;
@@ -140,6 +146,23 @@ static int refused(gn_status status, const char *pass, problem *why)
     return problem_of_usage(why, "the %s pass failed: %s (status %d)", pass, status_text(status), (int)status);
 }
 
+int frame_view_pass(frame *f, const gn_camera *camera, const gn_light *light, problem *why)
+{
+    if (!choices_use_view(&f->settings))
+        return 0;
+    double start = frame_clock();
+    gn_status status = gn_view_begin(f->context, camera, light);
+    for (int round = 0; round < f->plan.view_rounds && status == GN_OK; round++) {
+        status = run_regions(f, run_view_region, f->plan.camera_regions);
+        if (status == GN_OK)
+            status = gn_view_end(f->context);
+    }
+    if (status == GN_OK)
+        status = gn_get_rectangle(f->context, &f->rectangle);
+    f->view_seconds = frame_clock() - start;
+    return refused(status, "view", why);
+}
+
 int frame_light_pass(frame *f, const gn_light *light, problem *why)
 {
     double start = frame_clock();
@@ -160,6 +183,16 @@ int frame_camera_pass(frame *f, const gn_camera *camera, problem *why)
         status = run_regions(f, run_camera_region, f->plan.camera_regions);
     f->camera_seconds = frame_clock() - start;
     return refused(status, "camera", why);
+}
+
+uint32_t (*frame_texel_places(const frame *f))[2]
+{
+    uint32_t width = f->settings.map_width, height = f->settings.map_height;
+    uint32_t(*places)[2] = memory_take((size_t)width * height, sizeof *places);
+    for (uint32_t row = 0; row < height; row++)
+        for (uint32_t column = 0; column < width; column++)
+            gn_texel_place(f->context, column, row, places[(size_t)row * width + column]);
+    return places;
 }
 
 /* ---- memory ---------------------------------------------------------------------------------------------------- */
@@ -268,6 +301,21 @@ stage_hash frame_hash_silhouettes(const frame *f)
     for (size_t row = 0; map && row + beyond < f->settings.map_height; row++)
         for (size_t column = 0; column + beyond < f->settings.map_width; column++)
             hash = stage_hash_u8(hash, map[row * stride + column]);
+    return hash;
+}
+
+stage_hash frame_hash_warp(const frame *f)
+{
+    stage_hash hash = stage_hash_init();
+    const gn_rectangle *r = &f->rectangle;
+    const int32_t numbers[6] = {r->cosine, r->sine, r->low[0], r->low[1], r->size[0], r->size[1]};
+    for (int i = 0; i < 6; i++)
+        hash = stage_hash_u32(hash, (uint32_t)numbers[i]);
+    uint32_t(*places)[2] = frame_texel_places(f);
+    size_t count = (size_t)f->settings.map_width * f->settings.map_height;
+    for (size_t i = 0; i < count; i++)
+        hash = stage_hash_u32(stage_hash_u32(hash, places[i][0]), places[i][1]);
+    free(places);
     return hash;
 }
 

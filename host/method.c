@@ -71,4 +71,8 @@ void method_use(gn_settings *settings, const packed_scene *packed, int method)
     settings->slope = p->slope;
     settings->receiver = p->receiver;
     settings->reconstruction = p->reconstruction;
+    settings->fit = 0;
+    settings->warp = 0;
+    settings->fit_depth = 0;
+    settings->smoothing = 0;
 }

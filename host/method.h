@@ -13,7 +13,8 @@ extern const char *const method_words[METHOD_COUNT];
  * has no map. */
 int method_surface(int method);
 
-/* Set shadow, cull, layers, surface, bias, slope, receiver and reconstruction; nothing else of *settings. */
+/* Set shadow, cull, layers, surface, bias, slope, receiver and reconstruction, and no fit and no warp; nothing else of
+ * *settings. */
 void method_use(gn_settings *settings, const packed_scene *packed, int method);
 
 #endif

@@ -82,10 +82,10 @@ int option_number(const char *name, const char *value, long least, long most, lo
     return 0;
 }
 
-int option_decimal(const char *name, const char *value, double most, double *number, problem *why)
+int option_decimal(const char *name, const char *value, double least, double most, double *number, problem *why)
 {
-    if (word_number((word){value, strlen(value)}, number) || *number < 0 || *number > most)
-        return problem_of_usage(why, "%s %s; expected a number from 0 to %g", name, value, most);
+    if (word_number((word){value, strlen(value)}, number) || *number < least || *number > most)
+        return problem_of_usage(why, "%s %s; expected a number from %g to %g", name, value, least, most);
     return 0;
 }
 

@@ -31,8 +31,8 @@ void options_help(const option *table, size_t count, FILE *stream);
 /* A whole number within a range. 0, or -1 and the problem. */
 int option_number(const char *name, const char *value, long least, long most, long *number, problem *why);
 
-/* A decimal number from 0 to most. 0, or -1 and the problem. */
-int option_decimal(const char *name, const char *value, double most, double *number, problem *why);
+/* A decimal number within a range. 0, or -1 and the problem. */
+int option_decimal(const char *name, const char *value, double least, double most, double *number, problem *why);
 
 /* `N` or `WxH`, each from 1 to most. 0, or -1 and the problem. */
 int option_size(const char *name, const char *value, int one_number, long most, long size[2], problem *why);

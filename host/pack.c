@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VERSION = 3, BODY = 16, MESHES = 216, LARGEST_PLANE = 1 << 28, LARGEST_HALF_HEIGHT = 1 << 26, UNIT = 1 << 30 };
-enum { LARGEST_SLOPE = 64 << 16 };
+enum { VERSION = 4, BODY = 16, MESHES = 220, LARGEST_PLANE = 1 << 28, LARGEST_HALF_HEIGHT = 1 << 26, UNIT = 1 << 30 };
+enum { LARGEST_SLOPE = 64 << 16, LEAST_SMOOTHING = 1 << 10, LARGEST_SMOOTHING = 64 << 16 };
 
 static uint32_t crc32_of(const uint8_t *bytes, size_t size)
 {
@@ -54,7 +54,11 @@ static void put_method(writer *w, const gn_settings *s)
     put(w, (uint32_t)choices_number(&choices_receiver, s->receiver), 1);
     put(w, s->bias.value, 4);
     put(w, (uint32_t)s->slope, 4);
-    put(w, (uint32_t)choices_number(&choices_reconstruction, s->reconstruction), 4);
+    put(w, (uint32_t)choices_number(&choices_reconstruction, s->reconstruction), 1);
+    put(w, (uint32_t)choices_number(&choices_fit, s->fit), 1);
+    put(w, (uint32_t)choices_number(&choices_warp, s->warp), 1);
+    put(w, s->fit_depth, 1);
+    put(w, (uint32_t)s->smoothing, 4);
 }
 
 static void put_settings(writer *w, const packed_scene *packed)
@@ -269,6 +273,23 @@ static int get_choice(reader *r, const char *what, const choices *of, int has_me
     return get_byte(r, what, has_method ? (uint32_t)of->count - 1 : 0, number);
 }
 
+/* The depth is fitted where there is a fit, and functions are smoothed where there is a warp. */
+static int get_parameterisation(reader *r, int has_method, gn_settings *s)
+{
+    uint8_t fit, warp;
+    if (get_choice(r, "fit", &choices_fit, has_method, &fit) ||
+        get_choice(r, "warp", &choices_warp, has_method, &warp) || get_byte(r, "fitted depth", fit != 0, &s->fit_depth))
+        return -1;
+    s->fit = choices_fit.all[fit].object;
+    s->warp = choices_warp.all[warp].object;
+    if (get_signed_ranged(r, "smoothing", 0, warp ? LARGEST_SMOOTHING : 0, &s->smoothing))
+        return -1;
+    if (s->smoothing == 0 || s->smoothing >= LEAST_SMOOTHING)
+        return 0;
+    r->at -= 4;
+    return WRONG(r, "smoothing is %d; expected 0, or %d to %d", (int)s->smoothing, LEAST_SMOOTHING, LARGEST_SMOOTHING);
+}
+
 static int get_method(reader *r, packed_scene *packed)
 {
     gn_settings *s = &packed->settings;
@@ -287,7 +308,7 @@ static int get_method(reader *r, packed_scene *packed)
         return -1;
     s->receiver = choices_receiver.all[receiver].object;
     s->reconstruction = choices_reconstruction.all[reconstruction].object;
-    return get_zeros(r, 3);
+    return get_parameterisation(r, has_method, s);
 }
 
 static int get_settings(reader *r, packed_scene *packed)

@@ -3,24 +3,27 @@
  *
  *     offset  bytes
  *          0      4  "GNOM"
- *          4      4  version: 3
+ *          4      4  version: 4
  *          8      4  bytes of the whole file
  *         12      4  CRC-32 (IEEE 802.3) of everything from byte 16 on
  *         16      8  image width, image height, map width, map height: 16 bits each
  *         24      4  scale (signed): a world unit of the scene file is 2^scale integers
  *         28      2  ambient, 0 to 65535
- *         30      4  background r, g, b; 1 if a method follows, 0 if not (then bytes 34 to 51 are 0)
+ *         30      4  background r, g, b; 1 if a method follows, 0 if not (then bytes 34 to 55 are 0)
  *         34      6  cull, layers, surface, unit of the bias, shadow; receiver: 0 point, 1 plane-bias, 2 virtual,
  *                    3 virtual-always
  *         40      8  bias; slope (32 bits each)
  *         48      4  reconstruction: 0 nearest, 1 bilinear, 2 jitter4x4, 3 pcf3, 4 pcf5, 5 pcf7, 6 silhouette,
- *                    7 silhouette-smooth, 8 crossing; three zero bytes
- *         52     68  camera: projection, three zero bytes; eye, right, up, forward (3 x 32 bits each); tan_half,
+ *                    7 silhouette-smooth, 8 crossing; fit: 0 none, 1 dv, 2 msf; warp: 0 none, 1 rectilinear,
+ *                    2 rectilinear-distance, 3 nonorthogonal, 4 rectilinear-vertices, 5 nonorthogonal-vertices;
+ *                    1 if the depth is fitted too (0 without a fit)
+ *         52      4  smoothing (16.16 bits; 0: 1; 0 without a warp)
+ *         56     68  camera: projection, three zero bytes; eye, right, up, forward (3 x 32 bits each); tan_half,
  *                    half_height, near_depth, far_depth (32 bits each)
- *        120     88  light: kind, three zero bytes; right, up, forward (3 x 32 bits each); box_u, box_v, box_z,
+ *        124     88  light: kind, three zero bytes; right, up, forward (3 x 32 bits each); box_u, box_v, box_z,
  *                    box_width, box_height, box_depth; position (3 x 32 bits); tan_half, near_depth, far_depth
- *        208      8  number of meshes, number of objects
- *        216         meshes: vertex count, triangle count (32 bits each), bytes an index, closed, two zero bytes, edge
+ *        212      8  number of meshes, number of objects
+ *        220         meshes: vertex count, triangle count (32 bits each), bytes an index, closed, two zero bytes, edge
  *                    count (32 bits); then the vertices (3 x 32 bits each), the indices (3 a triangle), zero bytes up
  *                    to a multiple of 4, the edges (gn_mesh_edge: 2 x 32 bits each)
  *                    objects: number of the mesh (32 bits), r, g, b, a zero byte

@@ -186,6 +186,12 @@ static void write_settings(const source *s, const gn_settings *settings)
         fprintf(s->stream, "    .slope = %" PRId32 ",\n", settings->slope);
     write_object(s, "receiver", &choices_receiver, settings->receiver);
     write_object(s, "reconstruction", &choices_reconstruction, settings->reconstruction);
+    write_object(s, "fit", &choices_fit, settings->fit);
+    write_object(s, "warp", &choices_warp, settings->warp);
+    if (settings->fit_depth)
+        fputs("    .fit_depth = 1,\n", s->stream);
+    if (settings->smoothing)
+        fprintf(s->stream, "    .smoothing = %" PRId32 ",\n", settings->smoothing);
     fputs("};\n\n", s->stream);
 }
 

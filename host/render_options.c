@@ -5,6 +5,7 @@
 #include "quantise.h"
 #include "status.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Change *number to that of the value's choice, if there is a value. 0, or -1 and the problem. */
@@ -16,19 +17,6 @@ static int read_choice(const char *name, const char *value, const choices *of, i
     if (value)
         *number = option_choice(name, value, words, of->count, why);
     return *number < 0 ? -1 : 0;
-}
-
-/* What is only planned is told from what nobody knows: by its start, as parameterisations combine. */
-static int read_parameterisation(const char *value, problem *why)
-{
-    static const char *const built[] = {"uniform"};
-    static const char *const planned[] = {"dv", "msf", "rectilinear", "nonorthogonal"};
-    if (!value || option_choice("--parameterise", value, built, 1, why) == 0)
-        return 0;
-    for (size_t i = 0; i < sizeof planned / sizeof *planned; i++)
-        if (strncmp(value, planned[i], strlen(planned[i])) == 0)
-            return problem_of_usage(why, "--parameterise %s is not built yet; expected one that --help names", value);
-    return -1;
 }
 
 static int refuse_for_volumes(const char *name, problem *why)
@@ -94,6 +82,95 @@ static int read_camera_pass(gn_settings *settings, const char *const values[], p
     return 0;
 }
 
+/* The number of the word of that length; 0, which no option names, where it is none of them. */
+static int find_word(const choices *of, const char *word, size_t length)
+{
+    int number = of->count - 1;
+    while (number > 0 && (strlen(of->all[number].word) != length || memcmp(of->all[number].word, word, length) != 0))
+        number--;
+    return number;
+}
+
+static void list_words(const choices *of, char *list, size_t size)
+{
+    for (int i = 1; i < of->count; i++) {
+        size_t length = strlen(list);
+        snprintf(list + length, size - length, "%s%s", i > 1 ? ", " : "", of->all[i].word);
+    }
+}
+
+static int refuse_parameterisation(const char *value, const char *reason, problem *why)
+{
+    char fits[64] = "", warps[256] = "";
+    list_words(&choices_fit, fits, sizeof fits);
+    list_words(&choices_warp, warps, sizeof warps);
+    return problem_of_usage(why,
+                            "--parameterise %s %s; expected uniform, a fit (%s), a warp (%s), or a fit and a warp with "
+                            "+ between them",
+                            value, reason, fits, warps);
+}
+
+/* A part of --parameterise, of that length: a fit or a warp, of which there is none yet. */
+static int take_part(gn_settings *settings, const char *value, const char *part, size_t length, problem *why)
+{
+    int fit = find_word(&choices_fit, part, length), warp = find_word(&choices_warp, part, length);
+    if (!fit && !warp)
+        return refuse_parameterisation(value, "names something else", why);
+    if (fit && settings->fit)
+        return refuse_parameterisation(value, "names two fits", why);
+    if (warp && settings->warp)
+        return refuse_parameterisation(value, "names two warps", why);
+    if (fit)
+        settings->fit = choices_fit.all[fit].object;
+    else
+        settings->warp = choices_warp.all[warp].object;
+    return 0;
+}
+
+/* One that is named forgets all of the one before. */
+static int read_parameterisation(gn_settings *settings, const char *value, problem *why)
+{
+    if (!value)
+        return 0;
+    settings->fit = 0;
+    settings->warp = 0;
+    settings->fit_depth = 0;
+    settings->smoothing = 0;
+    if (strcmp(value, choices_fit.all[0].word) == 0)
+        return 0;
+    for (const char *part = value;; part++) {
+        size_t length = strcspn(part, "+");
+        if (take_part(settings, value, part, length, why))
+            return -1;
+        part += length;
+        if (!*part)
+            return 0;
+    }
+}
+
+static int read_smoothing(gn_settings *settings, const char *value, problem *why)
+{
+    double smoothing;
+    if (!settings->warp)
+        return problem_of_usage(why, "--smoothing has no meaning here; expected a warp (--parameterise rectilinear)");
+    if (option_decimal("--smoothing", value, 1.0 / 64, 64, &smoothing, why))
+        return -1;
+    settings->smoothing = (gn_q16_16)(smoothing * 65536 + 0.5);
+    return 0;
+}
+
+static int read_view_pass(gn_settings *settings, const char *const values[], problem *why)
+{
+    if (read_parameterisation(settings, values[RENDER_PARAMETERISE], why) ||
+        (values[RENDER_SMOOTHING] && read_smoothing(settings, values[RENDER_SMOOTHING], why)))
+        return -1;
+    if (values[RENDER_FIT_DEPTH] && !settings->fit)
+        return problem_of_usage(why, "--fit-depth has no meaning here; expected a fit (--parameterise dv or msf)");
+    if (values[RENDER_FIT_DEPTH])
+        settings->fit_depth = 1;
+    return 0;
+}
+
 static int read_amounts(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why)
 {
     double slope;
@@ -101,7 +178,7 @@ static int read_amounts(gn_settings *settings, const packed_scene *packed, const
         if (!choices_use_slope(settings))
             return problem_of_usage(why, "--slope has no meaning here; expected the virtual surface 'slope' or the "
                                          "receiver 'plane-bias'");
-        if (option_decimal("--slope", values[RENDER_SLOPE], 64, &slope, why))
+        if (option_decimal("--slope", values[RENDER_SLOPE], 0, 64, &slope, why))
             return -1;
         settings->slope = (gn_q16_16)(slope * 65536 + 0.5);
     }
@@ -143,7 +220,9 @@ static int check_volumes(const char *const values[], problem *why)
                    {RENDER_MAP, "--map"},
                    {RENDER_RECEIVER, "--receiver"},
                    {RENDER_RECONSTRUCT, "--reconstruct"},
-                   {RENDER_PARAMETERISE, "--parameterise"}};
+                   {RENDER_PARAMETERISE, "--parameterise"},
+                   {RENDER_SMOOTHING, "--smoothing"},
+                   {RENDER_FIT_DEPTH, "--fit-depth"}};
     for (size_t i = 0; i < sizeof of_maps / sizeof *of_maps; i++)
         if (values[of_maps[i].option])
             return refuse_for_volumes(of_maps[i].name, why);
@@ -161,6 +240,31 @@ static int refuse_small_map(const gn_settings *s, problem *why)
         s->map_height);
 }
 
+/* Is it the fit or the warp that the core does not take with the rest? */
+static int parameterisation_is_refused(const gn_settings *s, const packed_scene *packed)
+{
+    gn_settings uniform = *s;
+    gn_plan plan;
+    uniform.fit = 0;
+    uniform.warp = 0;
+    uniform.fit_depth = 0;
+    uniform.smoothing = 0;
+    return choices_use_view(s) && gn_make_plan(&plan, &packed->scene, &uniform) == GN_OK;
+}
+
+static int refuse_combination(const gn_settings *s, problem *why)
+{
+    char words[PARAMETERISATION_SIZE];
+    choices_parameterisation(s, words);
+    return problem_of_usage(
+        why,
+        "--parameterise %s makes no sense with the virtual surface %s, the receiver %s and the reconstruction %s; "
+        "expected another surface than slope, point, virtual or virtual-always, and nearest",
+        words, choices_surface.all[s->surface].word,
+        choices_receiver.all[choices_number(&choices_receiver, s->receiver)].word,
+        choices_reconstruction.all[choices_number(&choices_reconstruction, s->reconstruction)].word);
+}
+
 /* The same rules as gn_make_plan, in words. */
 static int check_combination(const gn_settings *s, const packed_scene *packed, problem *why)
 {
@@ -168,6 +272,8 @@ static int check_combination(const gn_settings *s, const packed_scene *packed, p
     gn_status status = gn_make_plan(&plan, &packed->scene, s);
     if (status == GN_UNSUPPORTED && (s->receiver || s->reconstruction) && (s->map_width < 2 || s->map_height < 2))
         return refuse_small_map(s, why);
+    if (status == GN_UNSUPPORTED && parameterisation_is_refused(s, packed))
+        return refuse_combination(s, why);
     if (status == GN_UNSUPPORTED)
         return problem_of_usage(
             why, "the virtual surface '%s' makes no sense with --layers %s and --cull %s; expected %s",
@@ -184,12 +290,13 @@ static int check_combination(const gn_settings *s, const packed_scene *packed, p
 int render_options_read(gn_settings *settings, packed_scene *packed, const char *const values[], problem *why)
 {
     *settings = packed->settings;
-    if (read_parameterisation(values[RENDER_PARAMETERISE], why) || read_method(settings, packed, values, why))
+    if (read_method(settings, packed, values, why))
         return -1;
     int volumes = settings->shadow == GN_SHADOW_VOLUMES;
-    if ((volumes && check_volumes(values, why)) || read_light_pass(settings, values, why) ||
-        read_camera_pass(settings, values, why) || read_amounts(settings, packed, values, why) ||
-        read_sizes(settings, values, why) || (choices_use_edges(settings) && packed_make_edges(packed, 0, why)))
+    if ((volumes && check_volumes(values, why)) || read_view_pass(settings, values, why) ||
+        read_light_pass(settings, values, why) || read_camera_pass(settings, values, why) ||
+        read_amounts(settings, packed, values, why) || read_sizes(settings, values, why) ||
+        (choices_use_edges(settings) && packed_make_edges(packed, 0, why)))
         return -1;
     return check_combination(settings, packed, why);
 }

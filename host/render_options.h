@@ -12,6 +12,8 @@ enum {
     RENDER_HEAD_METHOD,
     RENDER_METHOD,
     RENDER_PARAMETERISE,
+    RENDER_SMOOTHING,
+    RENDER_FIT_DEPTH,
     RENDER_CULL,
     RENDER_LAYERS,
     RENDER_SURFACE,
@@ -37,7 +39,22 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
      "silhouette. auto (the default): second-depth where every mesh is closed,\n" \
      "else mixed; receiver virtual. volumes: shadow volumes, right at every pixel\n" \
      "but ties, and without a map: none of the options below"}, \
-    {"--parameterise", "NAME", "uniform: the map covers the light's frustum evenly"}, \
+    {"--parameterise", "NAME", \
+     "uniform (the default): the map covers the light's frustum evenly. To spend\n" \
+     "texels where the camera looks, a fit: dv, the bounds of what it sees, or msf,\n" \
+     "the smallest rectangle around that; or a warp: rectilinear, columns and rows\n" \
+     "as wide as few pixels see them; rectilinear-distance, as they are far from\n" \
+     "the camera; nonorthogonal, each row and then each column by itself; or one\n" \
+     "of each: msf+rectilinear. rectilinear-vertices and nonorthogonal-vertices\n" \
+     "warp vertices alone, as graphics hardware does: for comparison, wrong on\n" \
+     "large triangles. nonorthogonal takes no reconstruction but nearest, and the\n" \
+     "receivers point, virtual and virtual-always"}, \
+    {"--smoothing", "F", \
+     "of a warp: the width of its smoothing over the usual one, 1/64 to 64; default\n" \
+     "1"}, \
+    {"--fit-depth", 0, \
+     "with a fit: a directional light's depths fitted as well, to what the camera\n" \
+     "sees; nearer to the light than that is at the near end"}, \
     {"--cull", "WHICH", \
      "auto, none, back or front faces of closed meshes in the light pass.\n" \
      "auto: what the virtual surface asks for"}, \

@@ -19,6 +19,7 @@ static const char *word_of(const choices *of, const void *object)
 void settings_report_text(FILE *stream, const gn_settings *s, const gn_plan *plan, int scale)
 {
     static const char *const units[] = {"", "t", "r"};
+    char words[PARAMETERISATION_SIZE];
     fprintf(stream, "virtual surface %s, layers %s, cull %s", choices_surface.all[s->surface].word,
             choices_layers.all[plan->layers].word, choices_cull.all[plan->cull].word);
     if (s->surface != GN_MIDPOINT)
@@ -27,10 +28,17 @@ void settings_report_text(FILE *stream, const gn_settings *s, const gn_plan *pla
         fprintf(stream, ", slope %g", ldexp(s->slope, -16));
     fprintf(stream, ", receiver %s, reconstruction %s", word_of(&choices_receiver, s->receiver),
             word_of(&choices_reconstruction, s->reconstruction));
+    if (!choices_use_view(s))
+        return;
+    choices_parameterisation(s, words);
+    fprintf(stream, ", parameterisation %s%s", words, s->fit_depth ? ", depth fitted" : "");
+    if (s->smoothing)
+        fprintf(stream, ", smoothing %g", ldexp(s->smoothing, -16));
 }
 
 void settings_report_json(json *j, const gn_settings *s, const gn_plan *plan, int scale)
 {
+    char words[PARAMETERISATION_SIZE];
     json_string(j, "shadow", choices_shadow.all[s->shadow].word);
     if (s->shadow != GN_SHADOW_MAP)
         return;
@@ -47,4 +55,10 @@ void settings_report_json(json *j, const gn_settings *s, const gn_plan *plan, in
         json_number(j, "slope", ldexp(s->slope, -16));
     json_string(j, "receiver", word_of(&choices_receiver, s->receiver));
     json_string(j, "reconstruction", word_of(&choices_reconstruction, s->reconstruction));
+    choices_parameterisation(s, words);
+    json_string(j, "parameterisation", words);
+    if (s->fit)
+        json_integer(j, "fit_depth", s->fit_depth);
+    if (s->warp)
+        json_number(j, "smoothing", s->smoothing ? ldexp(s->smoothing, -16) : 1);
 }

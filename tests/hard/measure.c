@@ -61,8 +61,9 @@ int method_render(packed_scene *packed, const gn_settings *settings, uint8_t **m
     s.format = colour ? GN_RGB888 : GN_NO_COLOUR;
     if (choices_use_edges(&s) && packed_make_edges(packed, 0, why))
         return -1;
-    int result = frame_open(&f, &packed->scene, &s, 0, why) || frame_light_pass(&f, &packed->light, why) ||
-                         frame_camera_pass(&f, &packed->camera, why)
+    int result = frame_open(&f, &packed->scene, &s, 0, why) ||
+                         frame_view_pass(&f, &packed->camera, &packed->light, why) ||
+                         frame_light_pass(&f, &packed->light, why) || frame_camera_pass(&f, &packed->camera, why)
                      ? -1
                      : 0;
     if (!result && mask)

@@ -114,6 +114,14 @@ constant --receiver virtual-always --reconstruct silhouette
 midpoint --reconstruct silhouette-smooth
 mixed --receiver virtual --reconstruct crossing
 second-depth --reconstruct crossing
+auto --parameterise dv
+mixed --receiver virtual --parameterise msf --fit-depth
+constant --receiver plane-bias --reconstruct pcf3 --parameterise rectilinear-distance
+silhouette --parameterise msf+rectilinear --smoothing 4
+silhouette --reconstruct crossing --parameterise dv+rectilinear
+mixed --receiver virtual --parameterise dv+nonorthogonal
+dual --parameterise dv+rectilinear-vertices
+constant --parameterise nonorthogonal-vertices
 END
 
 # Methods are presets; what is named beside them wins.
@@ -175,6 +183,42 @@ done <<'END'
 --virtual-surface constant --bias 0.0001r --layers first --cull none --receiver virtual|constant first none 0.0001 range - virtual nearest
 --parameterise uniform --reconstruct nearest --receiver point|second first front 0 world - point nearest
 END
+
+# What a map is fitted and warped with, as it is packed (host/pack.h): fit, warp, fitted depth, smoothing in 16.16 bits.
+# parameterised BYTES ARGUMENT...
+parameterised() {
+    expected=$1
+    shift
+    "$gnomon" pack "$@" -o "$folder/parameterised.gno" >/dev/null || return 1
+    got=$(od -An -v -tu1 -j49 -N7 "$folder/parameterised.gno" | tr -s ' ' | sed 's/^ //')
+    [ "$got" = "$expected" ] || { echo "got: $got, expected: $expected"; return 1; }
+}
+while IFS='|' read -r options expected; do
+    # shellcheck disable=SC2086 # the options are words
+    check "$(echo "parameterise $options" | tr ' ' '_')" parameterised "$expected" "$scene" --parameterise $options
+done <<'END'
+uniform|0 0 0 0 0 0 0
+dv|1 0 0 0 0 0 0
+msf|2 0 0 0 0 0 0
+rectilinear|0 1 0 0 0 0 0
+rectilinear-distance|0 2 0 0 0 0 0
+nonorthogonal|0 3 0 0 0 0 0
+rectilinear-vertices|0 4 0 0 0 0 0
+nonorthogonal-vertices|0 5 0 0 0 0 0
+dv+rectilinear|1 1 0 0 0 0 0
+rectilinear+dv|1 1 0 0 0 0 0
+msf+rectilinear-distance|2 2 0 0 0 0 0
+rectilinear-vertices+msf|2 4 0 0 0 0 0
+dv+nonorthogonal --smoothing 4|1 3 0 0 0 4 0
+nonorthogonal --smoothing 0.015625|0 3 0 0 4 0 0
+rectilinear --smoothing 64|0 1 0 0 0 64 0
+dv --fit-depth|1 0 1 0 0 0 0
+msf+rectilinear --fit-depth --smoothing 1.5|2 1 1 0 128 1 0
+END
+check "a_parameterisation_is_kept" parameterised "2 1 1 0 128 1 0" "$folder/parameterised.gno"
+check "also_with_another_receiver" parameterised "2 1 1 0 128 1 0" "$folder/parameterised.gno" --receiver point
+check "its_depth_and_its_smoothing_go_with_it" parameterised "1 1 0 0 0 0 0" "$folder/parameterised.gno" --parameterise dv+rectilinear
+check "a_method_forgets_it" parameterised "0 0 0 0 0 0 0" "$folder/parameterised.gno" --method mixed
 
 # What a packed scene has stays until something else is named.
 check "a_slope_is_packed" status 0 pack "$scene" -o "$folder/slope.gno" --method slope --slope 3
@@ -299,10 +343,59 @@ check "a_scene_is_packed_with_silhouettes" status 0 pack "$scene" -o "$folder/si
 check "which_has_the_hashes_of_the_method" same_hashes "$(hash_of "$scene" --method silhouette)" "$(hash_of "$folder/sil.gno")"
 check "its_edges_serve_volumes" same_hashes "$(hash_of "$scene" --method volumes)" "$(hash_of "$folder/sil.gno" --method volumes)"
 
+# Fits and warps: what the statistics and the picture say of them.
+warped="--method silhouette --parameterise msf+rectilinear --size 100x75 --map 64x48"
+# shellcheck disable=SC2086 # the options are words
+check "a_grid_is_drawn" status 0 render "$scene" $warped --grid "$folder/grid.ppm" --stats "$folder/grid.json" --mask "$folder/grid.pgm"
+check "with_1024_pixels_on_the_longer_side" sh -c "head -n 2 '$folder/grid.ppm' | tail -n 1 | grep -qE '^(1024 [0-9]+|[0-9]+ 1024)$'"
+tail -c +17 "$folder/grid.ppm" | od -An -v -tu1 -w3 | sort | uniq -c >"$folder/colours"
+check "in_grey_orange_blue_and_red" awk '{ grey = $2 == $3 && $3 == $4
+    if (grey) greys++; else if ($2 == 255 && $3 == 128 && $4 == 0) columns = $1; else if ($2 == 0 && $3 == 128 && $4 == 255) rows = $1
+    else if ($2 == 255 && $3 == 0 && $4 == 0) frame = $1; else exit 1 }
+    END { exit !(greys > 9 && columns > 5000 && rows > 5000 && frame > 500) }' "$folder/colours"
+check "its_pixels_are_lit_and_shadowed" sh -c "for value in 0 254; do
+    [ \$(tail -c 7500 '$folder/grid.pgm' | od -An -v -tu1 -w1 | grep -cx ' *'\$value) -gt 500 ] || exit 1; done"
+check "statistics_name_fit_and_warp" sh -c "grep -q '\"parameterisation\": \"msf+rectilinear\"' '$folder/grid.json' &&
+    grep -q '\"smoothing\": 1' '$folder/grid.json' && grep -q '\"fit_depth\": 0' '$folder/grid.json'"
+check "tables_take_2_bytes_a_column_and_row" agrees warp '2 * (64 + 48)' "$folder/grid.json"
+check "the_view_pass_takes_memory" test "$(count_of view_pass "$folder/grid.json" | head -n 1)" -gt 1000
+check "the_map_covers_a_part_of_the_plane" agrees covered_percent 'v["covered_percent"] > 1 && v["covered_percent"] < 99 ?
+    v["covered_percent"] : -1' "$folder/grid.json"
+# least_and_largest NAME FILE: of a magnification
+least_and_largest() {
+    awk -v name="$1" '{ gsub(/[",:{]/, " ") } $1 == name { found = 3 } found-- > 0 && NF == 2 { printf "%.3f ", $2 }' "$2"
+}
+for axis in column row; do
+    check "${axis}s_are_magnified_and_reduced" sh -c "set -- $(least_and_largest ${axis}_magnification "$folder/grid.json")
+        echo \"\$1 \$2\" | awk '{ exit !(\$1 > 0 && \$1 < 0.95 && \$2 > 1.05) }'"
+done
+"$gnomon" render "$scene" --parameterise dv --size 100x75 --map 64 --stats "$folder/dv.json" --hash >"$folder/dv" --verbose \
+    2>"$folder/said"
+check "a_fit_alone_magnifies_nothing" test "$(least_and_largest column_magnification "$folder/dv.json")" = "1.000 1.000 "
+check "nor_turns_anything" agrees angle_degrees 0 "$folder/dv.json"
+check "verbose_names_it" grep -q "receiver virtual, reconstruction nearest, parameterisation dv; " "$folder/said"
+check "the_warp_has_a_hash" sh -c "[ \$(grep -cE '^warp [0-9a-f]{16}$' '$folder/dv') = 1 ] &&
+    grep -q \$(sed -n 's/^warp //p' '$folder/dv') '$folder/dv.json'"
+check "which_another_camera_changes" sh -c "sed 's/^camera perspective eye [^ ]*/camera perspective eye 1.5/' '$scene' >'$folder/made/aside.scene'
+    '$gnomon' render '$folder/made/aside.scene' --parameterise dv --size 100x75 --map 64 --hash >'$folder/aside' &&
+    [ \$(grep -c '^warp' '$folder/aside') = 1 ] && ! grep -q \$(sed -n 's/^warp //p' '$folder/dv') '$folder/aside'"
+check "a_uniform_map_has_nothing_of_it" sh -c "'$gnomon' render '$scene' --size 8x6 --stats '$folder/a.json' --hash >'$folder/printed' &&
+    grep -q '\"parameterisation\": \"uniform\"' '$folder/a.json' &&
+    ! grep -qE 'warp|view_pass|smoothing|fit_depth' '$folder/a.json' '$folder/printed'"
+check "bench_measures_the_view_pass" sh -c "'$gnomon' bench '$scene' --runs 2 --size 40x30 --map 32 --parameterise dv+nonorthogonal \
+    --smoothing 4 --json '$folder/bench.json' >'$folder/printed' && grep -q '^view  *[0-9]' '$folder/printed' &&
+    grep -q 'reconstruction nearest, parameterisation dv+nonorthogonal, smoothing 4, region' '$folder/printed' &&
+    grep -q '\"view\"' '$folder/bench.json' && grep -q '\"smoothing\": 4' '$folder/bench.json'"
+check "and_none_of_a_uniform_map" sh -c "! '$gnomon' bench '$scene' --runs 1 --size 40x30 --map 32 | grep -q '^view'"
+# shellcheck disable=SC2086 # the options are words
+check "fits_and_warps_are_packed" status 0 pack "$scene" $warped --smoothing 2 -o "$folder/warped.gno"
+# shellcheck disable=SC2086 # the options are words
+check "which_have_the_same_hashes" same_hashes "$(hash_of "$scene" $warped --smoothing 2)" "$(hash_of "$folder/warped.gno")"
+
 check "a_scene_is_packed" status 0 pack "$scene" -o "$folder/lshape.gno"
 check "a_packed_scene_has_the_same_hashes" same_hashes "$(hash_of "$scene")" "$(hash_of "$folder/lshape.gno")"
 check "what_does_not_say_how_shadows_are_made_packs_no_method" sh -c "'$gnomon' pack '$scene' -o '$folder/again.gno' \
-    --parameterise uniform && cmp '$folder/again.gno' '$folder/lshape.gno'"
+    --size 640x480 && cmp '$folder/again.gno' '$folder/lshape.gno'"
 check "a_scene_is_packed_as_c" status 0 pack "$scene" -o "$folder/l-shape.h" --size 32x24 --map 32
 check "the_core_compiles" sh -c "mkdir '$folder/core' && core=\$PWD/core && cd '$folder/core' && ${CC:-cc} -std=c99 -c \"\$core\"/*.c"
 cat >"$folder/use.c" <<'END'
@@ -319,7 +412,7 @@ check "packed_c_compiles_without_a_warning" ${CC:-cc} -std=c99 -pedantic -Wall -
 check "packed_c_holds_the_scene" "$folder/use"
 
 check "a_method_is_packed_as_c" status 0 pack "$scene" -o "$folder/chosen.h" --method slope --receiver plane-bias --slope 3.5 \
-    --bias 2t --reconstruct pcf5 --size 32x24 --map 48x64
+    --bias 2t --reconstruct pcf5 --size 32x24 --map 48x64 --parameterise msf+rectilinear --smoothing 2 --fit-depth
 check "and_virtual_samples_of_a_packed_scene" status 0 pack "$folder/lshape.gno" -o "$folder/samples.h" \
     --reconstruct jitter4x4 --receiver virtual-always
 cat >"$folder/chosen.c" <<'END'
@@ -331,6 +424,7 @@ int main(void)
     gn_plan plan;
     int first = s->surface == GN_SLOPE && s->slope == 7 << 15 && s->bias.unit == GN_BIAS_TEXELS &&
                 s->bias.value == 2 << 16 && s->receiver == &gn_plane_bias && s->reconstruction == &gn_box_5x5 &&
+                s->fit == &gn_minimal_frustum && s->warp == &gn_rectilinear && s->fit_depth == 1 && s->smoothing == 2 << 16 &&
                 s->map_width == 48 && s->map_height == 64 && s->shadow == GN_SHADOW_MAP;
     int second = t->surface == GN_SECOND && !t->slope && !t->bias.value && t->receiver == &gn_virtual_always &&
                  t->reconstruction == &gn_jitter_4x4;
@@ -372,9 +466,16 @@ reconstruct pcf7 gn_box_7x7
 reconstruct silhouette gn_silhouettes
 reconstruct silhouette-smooth gn_silhouettes_smooth
 reconstruct crossing gn_crossings
+parameterise dv gn_desired_view
+parameterise msf gn_minimal_frustum
+parameterise rectilinear gn_rectilinear
+parameterise rectilinear-distance gn_rectilinear_distance
+parameterise nonorthogonal gn_nonorthogonal
+parameterise rectilinear-vertices gn_rectilinear_vertices
+parameterise nonorthogonal-vertices gn_nonorthogonal_vertices
 END
 check "a_point_and_a_nearest_texel_are_not_named_in_c" sh -c "'$gnomon' pack '$scene' -o '$folder/none.h' --method dual &&
-    grep -q GN_DUAL '$folder/none.h' && ! grep -qE 'slope|receiver|reconstruction' '$folder/none.h'"
+    grep -q GN_DUAL '$folder/none.h' && ! grep -qE 'slope|receiver|reconstruction|fit|warp|smoothing' '$folder/none.h'"
 
 check "packed_c_has_no_edges_unless_asked_for" sh -c "! grep -q edge '$folder/l-shape.h'"
 
@@ -448,7 +549,49 @@ check "silhouettes_in_a_missing_folder_are_refused" refuses "cannot be written" 
     --silhouettes "$folder/none/new.ppm" -o "$folder/new.ppm"
 check "silhouettes_and_an_image_in_one_file_are_refused" refuses "two outputs at once" render "$scene" --method silhouette \
     --silhouettes "$folder/new.ppm" -o "$folder/new.ppm"
-check "msf_is_not_built_yet" refuses "not built yet" render "$scene" --parameterise msf+rectilinear -o "$folder/new.ppm"
+words="expected uniform, a fit (dv, msf), a warp (rectilinear, rectilinear-distance, nonorthogonal, rectilinear-vertices, \
+nonorthogonal-vertices), or a fit and a warp with + between them"
+while IFS='|' read -r name problem; do
+    check "$(echo "${name:-nothing} as a parameterisation is refused" | tr ' ' '_')" refuses "--parameterise $name $problem; $words" \
+        render "$scene" --parameterise "$name" -o "$folder/new.ppm"
+done <<'END'
+best|names something else
+|names something else
++|names something else
+dv+|names something else
++rectilinear|names something else
+dv rectilinear|names something else
+dv+rectilinear+|names something else
+uniform+dv|names something else
+rectilinear+uniform|names something else
+rectilinear-|names something else
+dv+dv|names two fits
+dv+rectilinear+msf|names two fits
+rectilinear+rectilinear|names two warps
+nonorthogonal+dv+rectilinear|names two warps
+END
+check "smoothing_without_a_warp_is_refused" refuses "--smoothing has no meaning here; expected a warp" render "$scene" \
+    --parameterise dv --smoothing 2 -o "$folder/new.ppm"
+check "a_fitted_depth_without_a_fit_is_refused" refuses "--fit-depth has no meaning here; expected a fit" render "$scene" \
+    --parameterise rectilinear --fit-depth -o "$folder/new.ppm"
+for smoothing in 0 0.015624 64.1 -1 wide; do
+    check "a_smoothing_of_${smoothing}_is_refused" refuses "--smoothing $smoothing; expected a number from 0.015625 to 64" render \
+        "$scene" --parameterise rectilinear --smoothing "$smoothing" -o "$folder/new.ppm"
+done
+for reconstruction in bilinear jitter4x4 pcf3 silhouette silhouette-smooth crossing; do
+    check "nonorthogonal_with_${reconstruction}_is_refused" refuses "--parameterise dv+nonorthogonal makes no sense with the virtual \
+surface second, the receiver virtual and the reconstruction $reconstruction; expected another surface than slope" render "$scene" \
+        --parameterise dv+nonorthogonal --reconstruct $reconstruction -o "$folder/new.ppm"
+done
+check "nonorthogonal_with_a_plane_bias_is_refused" refuses "makes no sense with the virtual surface second, the receiver plane-bias" \
+    render "$scene" --parameterise nonorthogonal --receiver plane-bias -o "$folder/new.ppm"
+check "nonorthogonal_with_slope_is_refused" refuses "makes no sense with the virtual surface slope, the receiver point" render \
+    "$scene" --parameterise nonorthogonal --method slope -o "$folder/new.ppm"
+check "a_grid_of_a_uniform_map_is_refused" refuses "--grid, but the map is uniform; expected --parameterise" render "$scene" \
+    --grid "$folder/new.ppm"
+check "a_grey_grid_is_refused" refuses "expected .ppm" render "$scene" --parameterise dv --grid "$folder/new.pgm"
+check "a_grid_and_a_map_in_one_file_are_refused" refuses "two outputs at once" render "$scene" --parameterise dv \
+    --grid "$folder/new.ppm" -o "$folder/new.ppm"
 check "an_unknown_receiver_is_refused" refuses "--receiver x; expected one of: point, plane-bias, virtual, virtual-always" \
     render "$scene" --receiver x -o "$folder/new.ppm"
 check "an_unknown_surface_is_refused" refuses "--virtual-surface adaptive; expected one of: constant, midpoint, dual, second," \
@@ -467,7 +610,7 @@ for slope in 64.00001 -0.1 2x ''; do
     check "a_slope_of_${slope:-nothing_at_all}_is_refused" refuses "--slope $slope; expected a number from 0 to 64" render "$scene" \
         --method slope --slope "$slope" -o "$folder/new.ppm"
 done
-for option in '--receiver virtual' '--reconstruct pcf3' '--reconstruct silhouette' '--reconstruct crossing' '--slope 2'; do
+for option in '--parameterise dv' '--parameterise uniform' '--smoothing 2' --fit-depth '--receiver virtual' '--reconstruct pcf3' '--reconstruct silhouette' '--reconstruct crossing' '--slope 2'; do
     # shellcheck disable=SC2086 # the option and its value
     check "$(echo "$option" | tr ' ' '_')_with_volumes_is_refused" refuses "${option% *} has no meaning for shadow volumes" \
         render "$scene" --method volumes $option -o "$folder/new.ppm"

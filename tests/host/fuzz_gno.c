@@ -29,6 +29,7 @@ static void draw(packed_scene *packed, gn_shadow shadow)
     problem why;
     packed->settings.shadow = (uint8_t)shadow;
     if (frame_open(&f, &packed->scene, &packed->settings, 1, &why) == 0 &&
+        frame_view_pass(&f, &packed->camera, &packed->light, &why) == 0 &&
         frame_light_pass(&f, &packed->light, &why) == 0)
         drawn += frame_camera_pass(&f, &packed->camera, &why) == 0;
     frame_close(&f);
@@ -69,7 +70,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 }
 
 #ifndef GNOMON_LIBFUZZER
-enum { GOOD_SIZE = 312 };
+enum { GOOD_SIZE = 316 };
 
 /* A scene of a triangle and its back, with their edges: an upright view along -z, a light from above. */
 static size_t make_good(uint8_t good[GOOD_SIZE])
@@ -77,19 +78,19 @@ static size_t make_good(uint8_t good[GOOD_SIZE])
     static const uint8_t indices[] = {0, 0, 1, 0, 2, 0, 2, 0, 1, 0, 0, 0};
     static const uint32_t edges[] = {0, 4, 1, 3, 2, 5};
     memset(good, 0, GOOD_SIZE);
-    memcpy(good, "GNOM\3", 5);
+    memcpy(good, "GNOM\4", 5);
     good[16] = good[18] = good[20] = good[22] = 8;
-    put(good + 68, 1 << 30), put(good + 84, 1 << 30), put(good + 100, 0xc0000000); /* camera: right, up, forward */
-    put(good + 104, 1 << 24), put(good + 112, 16), put(good + 116, 1000);
-    put(good + 124, 1 << 30), put(good + 144, 1 << 30), put(good + 152, 0xc0000000);
+    put(good + 72, 1 << 30), put(good + 88, 1 << 30), put(good + 104, 0xc0000000); /* camera: right, up, forward */
+    put(good + 108, 1 << 24), put(good + 116, 16), put(good + 120, 1000);
+    put(good + 128, 1 << 30), put(good + 148, 1 << 30), put(good + 156, 0xc0000000);
     for (int i = 0; i < 3; i++) /* the box: its corner and its size */
-        put(good + 160 + 4 * i, 0xfffffc00), put(good + 172 + 4 * i, 0x800);
-    put(good + 208, 1), put(good + 212, 1), put(good + 216, 3), put(good + 220, 2), put(good + 224, 2);
-    put(good + 228, 3), put(good + 244, 100), put(good + 260, 100); /* the edges; the second and third corner */
-    put(good + 240, -200u), put(good + 252, -200u), put(good + 264, -300u);
-    memcpy(good + 268, indices, sizeof indices);
+        put(good + 164 + 4 * i, 0xfffffc00), put(good + 176 + 4 * i, 0x800);
+    put(good + 212, 1), put(good + 216, 1), put(good + 220, 3), put(good + 224, 2), put(good + 228, 2);
+    put(good + 232, 3), put(good + 248, 100), put(good + 264, 100); /* the edges; the second and third corner */
+    put(good + 244, -200u), put(good + 256, -200u), put(good + 268, -300u);
+    memcpy(good + 272, indices, sizeof indices);
     for (int i = 0; i < 6; i++)
-        put(good + 280 + 4 * i, edges[i]);
+        put(good + 284 + 4 * i, edges[i]);
     return GOOD_SIZE;
 }
 
@@ -104,11 +105,19 @@ static void choose(uint8_t good[GOOD_SIZE], gn_surface surface, uint8_t receiver
     good[48] = reconstruction;
 }
 
+static void parameterise(uint8_t good[GOOD_SIZE], uint8_t fit, uint8_t warp)
+{
+    good[49] = fit;
+    good[50] = warp;
+    good[51] = fit != 0;
+    put(good + 52, warp ? 1 << 16 : 0);
+}
+
 /* The objects follow the indices then. */
 static size_t leave_out_edges(uint8_t good[GOOD_SIZE])
 {
-    enum { EDGES = 280, OBJECTS = GOOD_SIZE - 8 };
-    put(good + 228, 0);
+    enum { EDGES = 284, OBJECTS = GOOD_SIZE - 8 };
+    put(good + 232, 0);
     memmove(good + EDGES, good + OBJECTS, GOOD_SIZE - OBJECTS);
     return EDGES + GOOD_SIZE - OBJECTS;
 }
@@ -124,6 +133,13 @@ int main(int argc, char **argv)
         choose(good, surfaces[i % 6], i % 4, i);
         fuzz_run("nor_do_those_with_a_method", good, size, cases / 6);
     }
+    for (uint8_t i = 1; i < 6; i++) {
+        choose(good, GN_MIXED, 2, i == 1 ? 6 : 0);
+        parameterise(good, i % 3, i);
+        fuzz_run("nor_do_those_with_a_fit_or_a_warp", good, size, cases / 6);
+    }
+    parameterise(good, 0, 0);
+    choose(good, surfaces[0], 2, 6);
     size = leave_out_edges(good);
     fuzz_run("nor_do_those_with_silhouettes_and_no_edges", good, size, cases / 6);
     ok(drawn > cases / 10, "many_of_them_are_rendered");

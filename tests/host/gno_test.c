@@ -10,20 +10,20 @@ static const char scene[] = "image 8 6\nmap 16 12\nambient 0.2\nlight directiona
 /* Offsets in the packed scene of one triangle: host/pack.h. */
 enum {
     METHOD = 34,
-    CAMERA = 52,
-    LIGHT = 120,
-    COUNTS = 208,
-    MESH = 216,
-    EDGE_COUNT = 228,
-    VERTICES = 232,
-    INDICES = 268,
-    PADDING = 274,
-    OBJECT = 276,
-    SIZE = 284
+    CAMERA = 56,
+    LIGHT = 124,
+    COUNTS = 212,
+    MESH = 220,
+    EDGE_COUNT = 232,
+    VERTICES = 236,
+    INDICES = 272,
+    PADDING = 278,
+    OBJECT = 280,
+    SIZE = 288
 };
 
 /* The same in that of three triangles, packed with their edges: two share an edge, the third has no area. */
-enum { EDGED_INDICES = 280, EDGES = 300, EDGED_OBJECT = 340, EDGED_SIZE = 348, EDGE_WORDS = 10 };
+enum { EDGED_INDICES = 284, EDGES = 304, EDGED_OBJECT = 344, EDGED_SIZE = 352, EDGE_WORDS = 10 };
 
 /* chosen: the first, packed with a method. */
 static uint8_t good[SIZE], edged[EDGED_SIZE], chosen[SIZE];
@@ -77,7 +77,7 @@ static void make_good(void)
     if (!ok(sandbox_run(command_pack, arguments) == EXIT_DONE, "a_scene_can_be_packed"))
         note("%s", sandbox_message);
     ok(read_back("in.gno", good, SIZE), "its_size_is_as_documented");
-    static const uint8_t start[] = {'G', 'N', 'O', 'M', 3, 0, 0, 0, SIZE & 255, SIZE >> 8, 0, 0};
+    static const uint8_t start[] = {'G', 'N', 'O', 'M', 4, 0, 0, 0, SIZE & 255, SIZE >> 8, 0, 0};
     static const uint8_t sizes[] = {8, 0, 6, 0, 16, 0, 12, 0, 23, 0, 0, 0, 13107 & 255, 13107 >> 8};
     static const uint8_t object[] = {0, 0, 0, 0, 255, 128, 0, 0};
     ok(memcmp(good, start, sizeof start) == 0 && memcmp(good + 16, sizes, sizeof sizes) == 0 &&
@@ -314,7 +314,7 @@ static void a_method_is_kept(void)
  * half a world unit of 2^23; a slope of 3.5 and 0.66 / 2^16, rounded; pcf5. */
 static void all_of_a_method_is_packed(void)
 {
-    static const uint8_t bytes[] = {0, 0, 5, 0, 0, 1, 0, 0, 0x40, 0, 1, 0x80, 3, 0, 4, 0, 0, 0};
+    static const uint8_t bytes[] = {0, 0, 5, 0, 0, 1, 0, 0, 0x40, 0, 1, 0x80, 3, 0, 4, 2, 1, 1, 0, 0x80, 2, 0};
     const char *first[] = {sandbox_path("in.scene"),
                            "-o",
                            sandbox_path("in-chosen.gno"),
@@ -323,6 +323,9 @@ static void all_of_a_method_is_packed(void)
                            "--slope=3.50001",
                            "--reconstruct=pcf5",
                            "--bias=0.5",
+                           "--parameterise=rectilinear+msf",
+                           "--smoothing=2.5",
+                           "--fit-depth",
                            0};
     const char *again[] = {sandbox_path("in-chosen.gno"), "-o", sandbox_path("in-again.gno"), 0};
     uint8_t back[SIZE];
@@ -330,15 +333,17 @@ static void all_of_a_method_is_packed(void)
     packed_scene packed;
     ok(sandbox_run(command_pack, first) == EXIT_DONE && read_back("in-chosen.gno", chosen, SIZE) &&
            memcmp(chosen + METHOD, bytes, sizeof bytes) == 0 && chosen[METHOD - 1] == 1,
-       "surface_receiver_slope_and_reconstruction_stand_where_documented");
+       "all_of_a_method_stands_where_documented");
     ok(sandbox_run(command_pack, again) == EXIT_DONE && read_back("in-again.gno", back, SIZE) &&
            memcmp(back, chosen, SIZE) == 0,
-       "and_stay_there_when_packed_again");
+       "and_stays_there_when_packed_again");
     ok(packed_read(&packed, sandbox_path("in-chosen.gno"), 0, &why) == 0 && packed.settings.surface == GN_SLOPE &&
            packed.settings.receiver == &gn_plane_bias && packed.settings.reconstruction == &gn_box_5x5 &&
            packed.settings.slope == (7 << 15) + 1 && packed.settings.bias.unit == GN_BIAS_WORLD &&
-           packed.settings.bias.value == 1 << 22,
-       "and_come_back");
+           packed.settings.bias.value == 1 << 22 && packed.settings.fit == &gn_minimal_frustum &&
+           packed.settings.warp == &gn_rectilinear && packed.settings.fit_depth == 1 &&
+           packed.settings.smoothing == 5 << 15,
+       "and_comes_back");
     packed_free(&packed);
 }
 
@@ -372,6 +377,66 @@ static void every_receiver_and_reconstruction_comes_back(void)
     ok(right == 36, "every_receiver_and_reconstruction_comes_back_and_is_written_as_it_was");
 }
 
+static void every_fit_and_warp_comes_back(void)
+{
+    static const gn_fit *const fits[] = {0, &gn_desired_view, &gn_minimal_frustum};
+    static const gn_warp *const warps[] = {0,
+                                           &gn_rectilinear,
+                                           &gn_rectilinear_distance,
+                                           &gn_nonorthogonal,
+                                           &gn_rectilinear_vertices,
+                                           &gn_nonorthogonal_vertices};
+    int right = 0;
+    for (uint8_t i = 0; i < 3; i++)
+        for (uint8_t k = 0; k < 6; k++) {
+            uint8_t bytes[SIZE], back[SIZE];
+            problem why;
+            packed_scene packed;
+            memcpy(bytes, chosen, SIZE);
+            bytes[49] = i;
+            bytes[50] = k;
+            bytes[51] = i > 0;
+            put(bytes, 52, 4, k ? 1024u + k : 0);
+            put(bytes, 12, 4, crc32_of(bytes + 16, SIZE - 16));
+            int good_one = pack_parse(&packed, "f", bytes, SIZE, &why) == 0 && packed.settings.fit == fits[i] &&
+                           packed.settings.warp == warps[k] && packed.settings.fit_depth == (i > 0) &&
+                           packed.settings.smoothing == (k ? 1024 + k : 0) &&
+                           pack_write(&packed, sandbox_path("in-again.gno"), &why) == 0 &&
+                           read_back("in-again.gno", back, SIZE) && memcmp(back, bytes, SIZE) == 0;
+            packed_free(&packed);
+            right += good_one;
+            if (!good_one)
+                note("fit %d, warp %d", i, k);
+        }
+    ok(right == 18, "every_fit_and_warp_comes_back_and_is_written_as_it_was");
+}
+
+/* What belongs to a fit or a warp that is not there. */
+static void nothing_is_left_of_no_fit_and_no_warp(void)
+{
+    static const struct {
+        const char *promise, *what;
+        uint8_t fit, warp, depth;
+        uint32_t smoothing;
+    } cases[] = {{"a_fitted_depth_without_a_fit", "byte 51: fitted depth is 1; expected 0 to 0", 0, 1, 1, 0},
+                 {"smoothing_without_a_warp", "byte 52: smoothing is 65536; expected 0 to 0", 1, 0, 1, 65536}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        uint8_t bytes[SIZE];
+        problem why;
+        packed_scene packed;
+        memcpy(bytes, chosen, SIZE);
+        bytes[49] = cases[i].fit;
+        bytes[50] = cases[i].warp;
+        bytes[51] = cases[i].depth;
+        put(bytes, 52, 4, cases[i].smoothing);
+        put(bytes, 12, 4, crc32_of(bytes + 16, SIZE - 16));
+        int refused = pack_parse(&packed, "f", bytes, SIZE, &why) == -1;
+        packed_free(&packed);
+        if (!ok(refused && strstr(why.text, cases[i].what), "%s_is_refused_with_its_place", cases[i].promise))
+            note("%s", refused ? why.text : "read");
+    }
+}
+
 typedef struct change {
     const char *promise;
     int at, size;
@@ -381,9 +446,9 @@ typedef struct change {
 
 static const change broken[] = {
     {"another_magic_number", 0, 1, 'X', ": byte 0", "GNOM"},
-    {"the_version_before", 4, 4, 2, ": byte 4", "version 2; expected 3"},
-    {"a_version_to_come", 4, 4, 4, ": byte 4", "version 4; expected 3"},
-    {"a_wrong_size", 8, 4, SIZE + 1, ": byte 8", "says that it has 285 bytes"},
+    {"the_version_before", 4, 4, 3, ": byte 4", "version 3; expected 4"},
+    {"a_version_to_come", 4, 4, 5, ": byte 4", "version 5; expected 4"},
+    {"a_wrong_size", 8, 4, SIZE + 1, ": byte 8", "says that it has 289 bytes"},
     {"an_image_of_no_width", 16, 2, 0, ": byte 16", "image width is 0"},
     {"an_image_of_4097_rows", 18, 2, 4097, ": byte 18", "image height"},
     {"a_map_of_no_width", 20, 2, 0, ": byte 20", "map width"},
@@ -397,42 +462,45 @@ static const change broken[] = {
     {"a_receiver_without_a_method", 39, 1, 1, ": byte 39", "receiver is 1; expected 0 to 0"},
     {"a_slope_without_a_method", 44, 4, 1, ": byte 44", "slope is 1; expected 0 to 0"},
     {"a_reconstruction_without_a_method", 48, 1, 1, ": byte 48", "reconstruction is 1; expected 0 to 0"},
-    {"padding_that_is_not_zero", 50, 1, 1, ": byte 49", "padding"},
-    {"an_unknown_projection", CAMERA, 1, 2, ": byte 52", "projection"},
-    {"an_eye_out_of_range", CAMERA + 4, 4, 0x7fffffff, ": byte 56", "eye"},
-    {"an_eye_of_the_least_number", CAMERA + 8, 4, 0x80000000, ": byte 60", "eye"},
-    {"an_axis_longer_than_one", CAMERA + 16, 4, 0x7fffffff, ": byte 68", "axis"},
-    {"axes_that_are_zero", CAMERA + 16, 4, 0, ": byte 68", "right angles"},
-    {"axes_that_are_not_at_right_angles", CAMERA + 32, 4, 0x20000000, ": byte 68", "right angles"},
-    {"a_field_of_view_of_zero", CAMERA + 52, 4, 0, ": byte 104", "tan_half"},
-    {"a_field_of_view_too_wide", CAMERA + 52, 4, 0xffffffff, ": byte 104", "tan_half"},
-    {"a_near_plane_at_zero", CAMERA + 60, 4, 0, ": byte 112", "near plane"},
-    {"a_far_plane_before_the_near_one", CAMERA + 64, 4, 1, ": byte 116", "far plane"},
-    {"an_unknown_kind_of_light", LIGHT, 1, 9, ": byte 120", "kind of light"},
-    {"a_light_whose_axes_are_broken", LIGHT + 4, 4, 0, ": byte 124", "right angles"},
-    {"a_light_whose_box_is_empty", LIGHT + 52, 4, 0, ": byte 172", "size of the light's box"},
-    {"a_light_whose_box_is_negative", LIGHT + 60, 4, 0xffffffff, ": byte 180", "size of the light's box"},
-    {"a_light_whose_box_is_far_away", LIGHT + 40, 4, 0x7fffffff, ": byte 160", "corner of the light's box"},
-    {"no_meshes", COUNTS, 4, 0, ": byte 208", "number of meshes"},
-    {"more_meshes_than_bytes", COUNTS, 4, 0x10000000, ": byte 208", "number of meshes"},
-    {"one_mesh_too_many", COUNTS, 4, 2, ": byte 276", "ends within a mesh"},
-    {"no_objects", COUNTS + 4, 4, 0, ": byte 212", "number of objects"},
-    {"one_object_too_many", COUNTS + 4, 4, 2, ": byte 276", "bytes left for the objects"},
-    {"a_mesh_without_vertices", MESH, 4, 0, ": byte 216", "vertex count"},
-    {"more_vertices_than_bytes", MESH, 4, 0x7fffffff, ": byte 232", "ends within a mesh"},
-    {"a_mesh_without_triangles", MESH + 4, 4, 0, ": byte 220", "triangle count"},
-    {"more_triangles_than_bytes", MESH + 4, 4, 0x7fffffff, ": byte 232", "ends within a mesh"},
-    {"indices_of_one_byte", MESH + 8, 1, 1, ": byte 224", "bytes an index"},
-    {"indices_of_three_bytes", MESH + 8, 1, 3, ": byte 228", "bytes an index"},
-    {"padding_in_a_mesh", MESH + 10, 2, 1, ": byte 226", "padding"},
-    {"more_edges_than_half-edges", EDGE_COUNT, 4, 4, ": byte 228", "edge count is 4; expected 0 to 3"},
-    {"edges_that_are_missing", EDGE_COUNT, 4, 3, ": byte 232", "ends within a mesh"},
-    {"a_mesh_neither_closed_nor_open", MESH + 9, 1, 2, ": byte 225", "closed"},
-    {"a_vertex_out_of_range", VERTICES + 12, 4, (1 << 24) + 1, ": byte 244", "vertex coordinate"},
-    {"an_index_beyond_the_vertices", INDICES + 2, 2, 3, ": byte 270", "index"},
-    {"padding_after_the_indices", PADDING, 1, 7, ": byte 274", "padding"},
-    {"an_object_of_no_mesh", OBJECT, 4, 1, ": byte 276", "mesh of an object"},
-    {"padding_after_a_colour", OBJECT + 7, 1, 1, ": byte 283", "padding"},
+    {"a_fit_without_a_method", 49, 1, 1, ": byte 49", "fit is 1; expected 0 to 0"},
+    {"a_warp_without_a_method", 50, 1, 1, ": byte 50", "warp is 1; expected 0 to 0"},
+    {"a_fitted_depth_without_a_method", 51, 1, 1, ": byte 51", "fitted depth is 1; expected 0 to 0"},
+    {"smoothing_without_a_method", 52, 4, 65536, ": byte 52", "smoothing is 65536; expected 0 to 0"},
+    {"an_unknown_projection", CAMERA, 1, 2, ": byte 56", "projection"},
+    {"an_eye_out_of_range", CAMERA + 4, 4, 0x7fffffff, ": byte 60", "eye"},
+    {"an_eye_of_the_least_number", CAMERA + 8, 4, 0x80000000, ": byte 64", "eye"},
+    {"an_axis_longer_than_one", CAMERA + 16, 4, 0x7fffffff, ": byte 72", "axis"},
+    {"axes_that_are_zero", CAMERA + 16, 4, 0, ": byte 72", "right angles"},
+    {"axes_that_are_not_at_right_angles", CAMERA + 32, 4, 0x20000000, ": byte 72", "right angles"},
+    {"a_field_of_view_of_zero", CAMERA + 52, 4, 0, ": byte 108", "tan_half"},
+    {"a_field_of_view_too_wide", CAMERA + 52, 4, 0xffffffff, ": byte 108", "tan_half"},
+    {"a_near_plane_at_zero", CAMERA + 60, 4, 0, ": byte 116", "near plane"},
+    {"a_far_plane_before_the_near_one", CAMERA + 64, 4, 1, ": byte 120", "far plane"},
+    {"an_unknown_kind_of_light", LIGHT, 1, 9, ": byte 124", "kind of light"},
+    {"a_light_whose_axes_are_broken", LIGHT + 4, 4, 0, ": byte 128", "right angles"},
+    {"a_light_whose_box_is_empty", LIGHT + 52, 4, 0, ": byte 176", "size of the light's box"},
+    {"a_light_whose_box_is_negative", LIGHT + 60, 4, 0xffffffff, ": byte 184", "size of the light's box"},
+    {"a_light_whose_box_is_far_away", LIGHT + 40, 4, 0x7fffffff, ": byte 164", "corner of the light's box"},
+    {"no_meshes", COUNTS, 4, 0, ": byte 212", "number of meshes"},
+    {"more_meshes_than_bytes", COUNTS, 4, 0x10000000, ": byte 212", "number of meshes"},
+    {"one_mesh_too_many", COUNTS, 4, 2, ": byte 280", "ends within a mesh"},
+    {"no_objects", COUNTS + 4, 4, 0, ": byte 216", "number of objects"},
+    {"one_object_too_many", COUNTS + 4, 4, 2, ": byte 280", "bytes left for the objects"},
+    {"a_mesh_without_vertices", MESH, 4, 0, ": byte 220", "vertex count"},
+    {"more_vertices_than_bytes", MESH, 4, 0x7fffffff, ": byte 236", "ends within a mesh"},
+    {"a_mesh_without_triangles", MESH + 4, 4, 0, ": byte 224", "triangle count"},
+    {"more_triangles_than_bytes", MESH + 4, 4, 0x7fffffff, ": byte 236", "ends within a mesh"},
+    {"indices_of_one_byte", MESH + 8, 1, 1, ": byte 228", "bytes an index"},
+    {"indices_of_three_bytes", MESH + 8, 1, 3, ": byte 232", "bytes an index"},
+    {"padding_in_a_mesh", MESH + 10, 2, 1, ": byte 230", "padding"},
+    {"more_edges_than_half-edges", EDGE_COUNT, 4, 4, ": byte 232", "edge count is 4; expected 0 to 3"},
+    {"edges_that_are_missing", EDGE_COUNT, 4, 3, ": byte 236", "ends within a mesh"},
+    {"a_mesh_neither_closed_nor_open", MESH + 9, 1, 2, ": byte 229", "closed"},
+    {"a_vertex_out_of_range", VERTICES + 12, 4, (1 << 24) + 1, ": byte 248", "vertex coordinate"},
+    {"an_index_beyond_the_vertices", INDICES + 2, 2, 3, ": byte 274", "index"},
+    {"padding_after_the_indices", PADDING, 1, 7, ": byte 278", "padding"},
+    {"an_object_of_no_mesh", OBJECT, 4, 1, ": byte 280", "mesh of an object"},
+    {"padding_after_a_colour", OBJECT + 7, 1, 1, ": byte 287", "padding"},
 };
 
 static const change broken_methods[] = {
@@ -446,26 +514,30 @@ static const change broken_methods[] = {
     {"a_slope_above_64", 44, 4, (64 << 16) + 1, ": byte 44", "slope is 4194305; expected 0 to 4194304"},
     {"a_slope_below_0", 44, 4, 0xffffffff, ": byte 44", "slope is -1; expected 0 to 4194304"},
     {"an_unknown_reconstruction", 48, 1, 200, ": byte 48", "reconstruction is 200; expected 0 to 8"},
-    {"padding_after_the_reconstruction", 51, 1, 1, ": byte 49", "padding"},
+    {"an_unknown_fit", 49, 1, 3, ": byte 49", "fit is 3; expected 0 to 2"},
+    {"an_unknown_warp", 50, 1, 6, ": byte 50", "warp is 6; expected 0 to 5"},
+    {"a_fitted_depth_of_two", 51, 1, 2, ": byte 51", "fitted depth is 2; expected 0 to 1"},
+    {"smoothing_above_64", 52, 4, (64 << 16) + 1, ": byte 52", "smoothing is 4194305; expected 0 to 4194304"},
+    {"smoothing_below_a_64th", 52, 4, 1023, ": byte 52", "smoothing is 1023; expected 0, or 1024 to 4194304"},
 };
 
 static const change broken_edges[] = {
-    {"an_edge_too_few", EDGE_COUNT, 4, 4, ": byte 332", "half-edge 5 stands in no edge"},
-    {"an_edge_too_many", EDGE_COUNT, 4, 6, ": byte 340", "half-edge 0 stands in another edge already"},
-    {"more_edges_than_bytes", EDGE_COUNT, 4, 9, ": byte 232", "and 9 edges"},
-    {"a_half-edge_beyond_the_triangles", EDGES, 4, 9, ": byte 300", "half-edge is 9; expected 0 to 8"},
-    {"an_edge_without_a_half-edge", EDGES, 4, GN_NO_HALF_EDGE, ": byte 300", "expected 0 to 8"},
-    {"a_first_half-edge_with_a_flag", EDGES, 4, GN_SAME_DIRECTION, ": byte 300", "expected 0 to 8"},
-    {"a_second_half-edge_beyond_the_triangles", EDGES + 12, 4, 9, ": byte 312", "half-edge is 9; expected 0 to 8"},
-    {"one_with_the_flag", EDGES + 12, 4, 9 | GN_SAME_DIRECTION, ": byte 312", "half-edge is 9; expected 0 to 8"},
-    {"one_that_is_almost_none", EDGES + 12, 4, GN_NO_HALF_EDGE - 1, ": byte 312", "expected 0 to 8"},
-    {"a_half-edge_in_two_edges", EDGES + 8, 4, 0, ": byte 308", "half-edge 0 stands in another edge already"},
-    {"a_half-edge_paired_with_itself", EDGES + 4, 4, 0, ": byte 304", "half-edge 0 stands in another edge already"},
-    {"a_half-edge_left_out", EDGES + 12, 4, GN_NO_HALF_EDGE, ": byte 340", "half-edge 3 stands in no edge"},
-    {"a_half-edge_of_a_triangle_without_area", EDGES, 4, 6, ": byte 300", "two corners at one place"},
-    {"a_wrong_direction", EDGES + 12, 4, 3 | GN_SAME_DIRECTION, ": byte 308", "expected them to run"},
-    {"a_pair_with_one_end_in_common", EDGES + 4, 4, 2, ": byte 300", "half-edges 0 and 2 make no edge"},
-    {"a_pair_without_a_common_end", EDGES + 4, 4, 5, ": byte 300", "half-edges 0 and 5 make no edge"},
+    {"an_edge_too_few", EDGE_COUNT, 4, 4, ": byte 336", "half-edge 5 stands in no edge"},
+    {"an_edge_too_many", EDGE_COUNT, 4, 6, ": byte 344", "half-edge 0 stands in another edge already"},
+    {"more_edges_than_bytes", EDGE_COUNT, 4, 9, ": byte 236", "and 9 edges"},
+    {"a_half-edge_beyond_the_triangles", EDGES, 4, 9, ": byte 304", "half-edge is 9; expected 0 to 8"},
+    {"an_edge_without_a_half-edge", EDGES, 4, GN_NO_HALF_EDGE, ": byte 304", "expected 0 to 8"},
+    {"a_first_half-edge_with_a_flag", EDGES, 4, GN_SAME_DIRECTION, ": byte 304", "expected 0 to 8"},
+    {"a_second_half-edge_beyond_the_triangles", EDGES + 12, 4, 9, ": byte 316", "half-edge is 9; expected 0 to 8"},
+    {"one_with_the_flag", EDGES + 12, 4, 9 | GN_SAME_DIRECTION, ": byte 316", "half-edge is 9; expected 0 to 8"},
+    {"one_that_is_almost_none", EDGES + 12, 4, GN_NO_HALF_EDGE - 1, ": byte 316", "expected 0 to 8"},
+    {"a_half-edge_in_two_edges", EDGES + 8, 4, 0, ": byte 312", "half-edge 0 stands in another edge already"},
+    {"a_half-edge_paired_with_itself", EDGES + 4, 4, 0, ": byte 308", "half-edge 0 stands in another edge already"},
+    {"a_half-edge_left_out", EDGES + 12, 4, GN_NO_HALF_EDGE, ": byte 344", "half-edge 3 stands in no edge"},
+    {"a_half-edge_of_a_triangle_without_area", EDGES, 4, 6, ": byte 304", "two corners at one place"},
+    {"a_wrong_direction", EDGES + 12, 4, 3 | GN_SAME_DIRECTION, ": byte 312", "expected them to run"},
+    {"a_pair_with_one_end_in_common", EDGES + 4, 4, 2, ": byte 304", "half-edges 0 and 2 make no edge"},
+    {"a_pair_without_a_common_end", EDGES + 4, 4, 5, ": byte 304", "half-edges 0 and 5 make no edge"},
 };
 
 static int change_is_refused(const uint8_t *whole, size_t size, const change *c)
@@ -498,7 +570,7 @@ static void broken_files(void)
     put(bytes, 8, 4, SIZE + 1);
     put(bytes, 12, 4, crc32_of(bytes + 16, SIZE + 1 - 16));
     sandbox_write("in.gno", bytes, SIZE + 1);
-    ok(sandbox_refused(render_it("out.ppm"), "in.gno", ": byte 276", "9 bytes left"), "a_byte_too_many_is_refused");
+    ok(sandbox_refused(render_it("out.ppm"), "in.gno", ": byte 280", "9 bytes left"), "a_byte_too_many_is_refused");
 }
 
 /* A scene with its size and checksum put right; 0 if it is accepted. */
@@ -629,6 +701,8 @@ int main(void)
     a_method_is_kept();
     all_of_a_method_is_packed();
     every_receiver_and_reconstruction_comes_back();
+    every_fit_and_warp_comes_back();
+    nothing_is_left_of_no_fit_and_no_warp();
     edges_are_packed();
     volumes_are_kept();
     silhouettes_are_kept();

@@ -92,13 +92,13 @@ static TAP_UNUSED int sandbox_redirect(FILE *stream, int file)
     return before;
 }
 
-/* Run a command in this process with up to eight arguments, 0 after the last. Returns its exit status; standard output
+/* Run a command in this process with up to twelve arguments, 0 after the last. Returns its exit status; standard output
  * is kept in the file in-output, standard error in sandbox_message. */
 static TAP_UNUSED int sandbox_run(sandbox_command command, const char *const arguments[])
 {
-    char *argv[9];
+    char *argv[13];
     int argc = 0;
-    for (; arguments[argc] && argc < 8; argc++)
+    for (; arguments[argc] && argc < 12; argc++)
         argv[argc] = (char *)(uintptr_t)arguments[argc];
     argv[argc] = 0;
     int out = sandbox_redirect(stdout, open(sandbox_path("in-output"), O_RDWR | O_CREAT | O_TRUNC, 0600));

@@ -276,6 +276,7 @@ static int run(job *j, const char *scene, int strict, const char *const values[]
     j->settings.mask = 1;
     j->settings.format = GN_NO_COLOUR;
     if (frame_open(&j->frame, &j->packed.scene, &j->settings, 0, &j->why) ||
+        frame_view_pass(&j->frame, &j->packed.camera, &j->packed.light, &j->why) ||
         frame_light_pass(&j->frame, &j->packed.light, &j->why) ||
         frame_camera_pass(&j->frame, &j->packed.camera, &j->why))
         return -1;

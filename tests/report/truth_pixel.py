@@ -26,14 +26,14 @@ def cross(a, b):
 class Scene:
     def __init__(self, path):
         data = open(path, "rb").read()
-        if data[:4] != b"GNOM" or struct.unpack_from("<I", data, 4)[0] != 3:
-            sys.exit(path + ": expected a .gno file of version 3")
+        if data[:4] != b"GNOM" or struct.unpack_from("<I", data, 4)[0] != 4:
+            sys.exit(path + ": expected a .gno file of version 4")
         self.width, self.height = struct.unpack_from("<HH", data, 16)
-        camera = struct.unpack_from("<B3x12iIiii", data, 52)
+        camera = struct.unpack_from("<B3x12iIiii", data, 56)
         self.orthographic = camera[0] == 1
         self.eye, self.right, self.up, self.forward = (list(camera[1 + 3 * i:4 + 3 * i]) for i in range(4))
         self.tangent, self.half_height, self.near, self.far = camera[13:17]
-        light = struct.unpack_from("<B3x9i6i3iIii", data, 120)
+        light = struct.unpack_from("<B3x9i6i3iIii", data, 124)
         self.spot = light[0] == 1
         self.light_right, self.light_up, self.light_forward = (list(light[1 + 3 * i:4 + 3 * i]) for i in range(3))
         self.position = list(light[16:19])
@@ -41,8 +41,8 @@ class Scene:
         self.read_triangles(data)
 
     def read_triangles(self, data):
-        meshes, objects = struct.unpack_from("<II", data, 208)
-        at, parts = 216, []
+        meshes, objects = struct.unpack_from("<II", data, 212)
+        at, parts = 220, []
         for _ in range(meshes):
             vertices, triangles, size, edges = struct.unpack_from("<IIB3xI", data, at)
             at += 16
