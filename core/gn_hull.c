@@ -22,7 +22,7 @@
 #define SIDE GN_HULL_ROWS                   /* of the plane */
 #define CELL_WIDTH (SIDE / GN_HULL_COLUMNS) /* its height is 1 */
 #define LINK 0x8000u                        /* margin: the chain leaves the column out */
-#define FRACTION (2 * 256)                  /* of a row, in gn_rectangle */
+#define FRACTION (2 * 256)                  /* of a row, in gn_enclosure */
 #define ONE ((int32_t)1 << 30)              /* Q2.30 */
 
 typedef struct point {
@@ -208,7 +208,7 @@ static gn_q2_30 part_of_length(int32_t x, unsigned n, uint32_t length)
     return (gn_q2_30)gn_divide(((uint64_t)((uint32_t)x) << (n + 30)) + length / 2, length);
 }
 
-static void set_axis(gn_rectangle *rectangle, point d)
+static void set_axis(gn_enclosure *rectangle, point d)
 {
     uint64_t square = (uint32_t)(d.x * d.x) + (uint32_t)(d.y * d.y); /* below 2^31 */
     unsigned n = gn_leading_zeros_64(square) / 2;
@@ -236,7 +236,7 @@ static void contain(int64_t *low, int64_t *high, point p, gn_q2_30 x, gn_q2_30 y
 
 /* Set low and high by the rounded axis: every corner of the hull counts, since another than the one that the caliper
  * touches may now lie further out. */
-static void set_bounds(gn_rectangle *rectangle, const struct chain chains[2])
+static void set_bounds(gn_enclosure *rectangle, const struct chain chains[2])
 {
     int64_t low[2] = {INT64_MAX, INT64_MAX}, high[2] = {INT64_MIN, INT64_MIN};
     for (int i = 0; i < 2; i++) {
@@ -259,7 +259,7 @@ static void set_bounds(gn_rectangle *rectangle, const struct chain chains[2])
     }
 }
 
-int gn_find_rectangle(gn_rectangle *rectangle, gn_extent extents[GN_HULL_COLUMNS])
+int gn_find_enclosure(gn_enclosure *rectangle, gn_extent extents[GN_HULL_COLUMNS])
 {
     struct chain chains[2] = {{extents, 0, 0, 0}, {extents, GN_HULL_COLUMNS - 1, 0, 0}};
     if (!build_chain(&chains[0]))

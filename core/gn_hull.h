@@ -17,10 +17,10 @@ typedef struct gn_extent {
 /* The points p with low <= p . (axis, perpendicular) <= high, where axis = (cosine, sine) and perpendicular =
  * (-sine, cosine): the axis is the plane's first one turned counterclockwise by an angle in (-45, 45] degrees.
  * low, high: 1/256 of a unit, in +-2^24.5. */
-typedef struct gn_rectangle {
+typedef struct gn_enclosure {
     gn_q2_30 cosine, sine;
     int32_t low[2], high[2]; /* along the axis, along the perpendicular */
-} gn_rectangle;
+} gn_enclosure;
 
 /* Forget all samples. */
 void gn_clear_extents(gn_extent extents[GN_HULL_COLUMNS]);
@@ -44,6 +44,6 @@ void gn_merge_extents(gn_extent to[GN_HULL_COLUMNS], const gn_extent from[GN_HUL
  * perpendicular is met first when turning counterclockwise from the plane's first axis. The angle is exact but for the
  * rounding of cosine and sine, each within 0.75 / 2^30; the cells lie in the rectangle with these, rounded outward.
  * Overwrites the extents. Returns 0, with nothing written, where there are no samples; else 1. */
-int gn_find_rectangle(gn_rectangle *rectangle, gn_extent extents[GN_HULL_COLUMNS]);
+int gn_find_enclosure(gn_enclosure *rectangle, gn_extent extents[GN_HULL_COLUMNS]);
 
 #endif

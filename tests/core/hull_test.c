@@ -45,12 +45,12 @@ static void add(int64_t x, int64_t y)
         samples[sample_count++] = p;
 }
 
-static int find(gn_rectangle *rectangle)
+static int find(gn_enclosure *rectangle)
 {
     gn_clear_extents(extents);
     for (int i = 0; i < sample_count; i++)
         gn_add_extent(extents, (uint32_t)samples[i].x, (uint32_t)samples[i].y);
-    return gn_find_rectangle(rectangle, extents);
+    return gn_find_enclosure(rectangle, extents);
 }
 
 /* ---- twins ---------------------------------------------------------------------------------------------------------
@@ -183,7 +183,7 @@ static exact floor_256(exact v)
     return v < 0 ? -((-v + unit - 1) / unit) : v / unit;
 }
 
-static int bounds_are_exact(const gn_rectangle *r)
+static int bounds_are_exact(const gn_enclosure *r)
 {
     gn_q2_30 axes[2][2] = {{r->cosine, r->sine}, {-r->sine, r->cosine}};
     for (int k = 0; k < 2; k++) {
@@ -197,7 +197,7 @@ static int bounds_are_exact(const gn_rectangle *r)
 }
 
 /* Each sample's own unit square. */
-static int contains_every_sample(const gn_rectangle *r)
+static int contains_every_sample(const gn_enclosure *r)
 {
     gn_q2_30 axes[2][2] = {{r->cosine, r->sine}, {-r->sine, r->cosine}};
     for (int i = 0; i < 4 * sample_count; i++) {
@@ -220,7 +220,7 @@ static struct point axis_of(struct point direction)
 
 static void check(struct tally *tally, struct smallest (*twin)(void), const char *kind)
 {
-    gn_rectangle r;
+    gn_enclosure r;
     tally->sets++;
     if (!find(&r)) {
         tally->angle++;
@@ -424,7 +424,7 @@ static void order_does_not_matter(uint64_t cases)
 {
     uint64_t bad = 0;
     for (uint64_t i = 0; i < cases; i++) {
-        gn_rectangle r = {0}, other = {0};
+        gn_enclosure r = {0}, other = {0};
         if (i % 2)
             large_set(i % 4 == 1 ? CLOUD : BOX);
         else
@@ -444,7 +444,7 @@ static void order_does_not_matter(uint64_t cases)
                 gn_add_extent(partial, (uint32_t)samples[k].x, (uint32_t)samples[k].y);
             gn_merge_extents(again, partial);
         }
-        bad += !gn_find_rectangle(&other, again) || memcmp(&r, &other, sizeof r) != 0;
+        bad += !gn_find_enclosure(&other, again) || memcmp(&r, &other, sizeof r) != 0;
     }
     ok(bad == 0, "order_of_samples_and_their_split_among_workers_do_not_matter");
 }
@@ -452,7 +452,7 @@ static void order_does_not_matter(uint64_t cases)
 /* ---- by hand
  * ---------------------------------------------------------------------------------------------------------- */
 
-static int is(const gn_rectangle *r, gn_q2_30 cosine, gn_q2_30 sine, const int32_t bounds[4])
+static int is(const gn_enclosure *r, gn_q2_30 cosine, gn_q2_30 sine, const int32_t bounds[4])
 {
     int good = r->cosine == cosine && r->sine == sine && r->low[0] == bounds[0] && r->high[0] == bounds[1] &&
                r->low[1] == bounds[2] && r->high[1] == bounds[3];
@@ -464,7 +464,7 @@ static int is(const gn_rectangle *r, gn_q2_30 cosine, gn_q2_30 sine, const int32
 
 static void rectangles_made_by_hand(void)
 {
-    gn_rectangle r = {12345, 0, {0, 0}, {0, 0}};
+    gn_enclosure r = {12345, 0, {0, 0}, {0, 0}};
     sample_count = 0;
     ok(find(&r) == 0 && r.cosine == 12345, "no_samples_have_no_rectangle");
 
