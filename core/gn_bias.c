@@ -4,7 +4,7 @@
 uint32_t gn_make_bias(const gn_context *context, const gn_bias *bias)
 {
     const gn_light *light = &context->light;
-    gn_scaled width = gn_scale(context->settings.map_width, 0), height = gn_scale(context->settings.map_height, 0);
+    gn_scaled width = gn_scale(context->texels_across, -8), height = gn_scale(context->texels_down, -8);
     gn_scaled value = gn_scale(bias->value, bias->unit == GN_BIAS_RANGE ? -32 : bias->unit == GN_BIAS_TEXELS ? -16 : 0);
     if (bias->unit != GN_BIAS_RANGE) {
         /* world: the range's share of one world unit; texels: of one texel, mean of both axes */
@@ -25,8 +25,7 @@ uint32_t gn_make_bias(const gn_context *context, const gn_bias *bias)
                 uint64_t product = gn_multiply_u((uint32_t)light->near_depth, (uint32_t)light->far_depth);
                 gn_scaled w = gn_scale(gn_square_root(product << 4), -2);
                 gn_scaled tangent = gn_scale(light->tan_half, -24);
-                gn_scaled inverse = gn_scaled_add(gn_scaled_divide(tangent, context->texels_across),
-                                                  gn_scaled_divide(tangent, context->texels_down));
+                gn_scaled inverse = gn_scaled_add(gn_scaled_divide(tangent, width), gn_scaled_divide(tangent, height));
                 unit = gn_scaled_multiply(unit, gn_scaled_multiply(w, inverse));
             }
         }

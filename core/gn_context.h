@@ -47,7 +47,6 @@ typedef struct gn_shading {
     uint8_t depth_bits;      /* fraction bits of depth in units of 1/65536 */
     uint8_t trusted; /* gn_inside: whether every point of the scene lies inside the light's box: no test needed */
     uint32_t near_w, far_w; /* spot: in the unit of coordinate[2] */
-    uint32_t width, height; /* columns and rows of the light's view: of the map, or of a warped map's fine ones */
 } gn_shading;
 
 typedef enum gn_phase {
@@ -97,12 +96,12 @@ struct gn_context {
 
     gn_light light;
     gn_view light_view;
-    uint32_t bias;                        /* in units of a 32-bit depth */
-    uint8_t light_trusted;                /* gn_inside */
-    uint8_t phase;                        /* gn_phase: whose turn it is to use the shared part */
-    uint8_t *progress;                    /* gn_progress of each light region, written by whoever renders it */
-    uint32_t tan_squared;                 /* spot: of half the opening, 19 fraction bits */
-    gn_scaled texels_across, texels_down; /* spot: so many would be on its whole plane */
+    uint32_t bias;                       /* in units of a 32-bit depth */
+    uint8_t light_trusted;               /* gn_inside */
+    uint8_t phase;                       /* gn_phase: whose turn it is to use the shared part */
+    uint8_t *progress;                   /* gn_progress of each light region, written by whoever renders it */
+    uint32_t tan_squared;                /* spot: of half the opening, 19 fraction bits */
+    uint32_t texels_across, texels_down; /* spot: so many would be on its whole plane; 8 fraction bits */
 
     gn_camera camera;
     gn_view camera_view;

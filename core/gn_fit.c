@@ -59,28 +59,25 @@ static void fit_box(gn_light *light, const gn_rectangle *r)
     light->box_height = light->box_height < 64 ? 64 : light->box_height;
 }
 
-/* (along 1 / tangent + forward centre) / half: a direction whose product with a point is its place in the rectangle,
- * -1 to 1, times its distance. Returns its axis and *bound, by which that is to be multiplied. */
-static void make_skew_axis(gn_q2_30 axis[3], gn_scaled *bound, const int32_t along[3], const gn_q2_30 forward[3],
-                           gn_scaled tangent, int64_t centre, int32_t half)
+/* (along / tangent + forward centre) / half, centre and half in 2^-30: a direction whose product with a point is its
+ * place in the rectangle, -1 to 1, times its depth. */
+static void make_skew_axis(gn_scaled axis[3], const int32_t along[3], const gn_q2_30 forward[3], gn_scaled tangent,
+                           int64_t centre, int32_t half)
 {
-    gn_scaled inverse = gn_scaled_divide(gn_scale(1, 0), tangent), to = gn_scale(centre, -30);
-    gn_scaled sum = gn_scaled_add(inverse, gn_scaled_magnitude(to));
+    gn_scaled side = gn_scale(half, -30), to = gn_scale(centre, -30);
     for (int i = 0; i < 3; i++) {
-        gn_scaled part = gn_scaled_add(gn_scaled_multiply(gn_scale(along[i], -30), inverse),
+        gn_scaled part = gn_scaled_add(gn_scaled_divide(gn_scale(along[i], -30), tangent),
                                        gn_scaled_multiply(gn_scale(forward[i], -30), to));
-        axis[i] = (int32_t)gn_scaled_round(gn_scaled_divide(part, sum), -30);
+        axis[i] = gn_scaled_divide(part, side);
     }
-    *bound = gn_scaled_divide(sum, gn_scale(half, -30));
 }
 
-/* The part of a spot light's frustum above the rectangle. */
-static gn_status make_spot_view(gn_view *view, const gn_light *light, const gn_rectangle *r, int32_t width,
-                                int32_t height)
+/* The part of a spot light's frustum above the rectangle, as a light whose axes are neither of one length nor upright
+ * on each other, but none longer than 1: the tangent makes up for it. GN_OUT_OF_RANGE: too narrow. */
+static gn_status fit_frustum(gn_light *light, const gn_rectangle *r)
 {
-    gn_scaled tangent = gn_scale(light->tan_half, -24), bound[2], one = gn_scale(1, 0);
-    gn_q2_30 axis[2][3];
-    int32_t across[3], up[3];
+    gn_scaled tangent = gn_scale(light->tan_half, -24), axis[2][3];
+    int32_t across[3], up[3], bits = -1000;
     for (int i = 0; i < 3; i++) {
         across[i] = turned(light->right[i], light->up[i], r->cosine, -r->sine);
         up[i] = turned(light->up[i], light->right[i], r->cosine, r->sine);
@@ -88,20 +85,37 @@ static gn_status make_spot_view(gn_view *view, const gn_light *light, const gn_r
     /* the centre, in -1 .. 1 of the frustum from its axis; the plane goes from 0 to 1 */
     int64_t centre_x = 2 * (int64_t)r->low[0] + r->size[0] - r->cosine - r->sine;
     int64_t centre_y = 2 * (int64_t)r->low[1] + r->size[1] - r->cosine + r->sine;
-    make_skew_axis(axis[0], &bound[0], across, light->forward, tangent, -centre_x, r->size[0]);
-    make_skew_axis(axis[1], &bound[1], up, light->forward, tangent, centre_y, r->size[1]);
-    return gn_make_skew_view(view, light, axis[0], axis[1], gn_scaled_divide(one, bound[0]),
-                             gn_scaled_divide(one, bound[1]), width, height);
+    make_skew_axis(axis[0], across, light->forward, tangent, -centre_x, r->size[0]);
+    make_skew_axis(axis[1], up, light->forward, tangent, centre_y, r->size[1]);
+    for (int i = 0; i < 3; i++) {
+        int32_t a = gn_scaled_bits(axis[0][i]), b = gn_scaled_bits(axis[1][i]);
+        bits = a > bits ? a : bits;
+        bits = b > bits ? b : bits;
+    }
+    bits++; /* of three components the sum of squares is below 4 */
+    if (bits > 8 || bits < -6)
+        return GN_OUT_OF_RANGE;
+    light->tan_half = (gn_q8_24)1 << (24 - bits);
+    for (int i = 0; i < 3; i++) {
+        light->right[i] = (int32_t)gn_scaled_round(axis[0][i], bits - 30);
+        light->up[i] = (int32_t)gn_scaled_round(axis[1][i], bits - 30);
+    }
+    return GN_OK;
 }
 
 gn_status gn_make_fitted_view(gn_view *view, gn_light *light, const gn_rectangle *r, int32_t width, int32_t height)
 {
-    if (light->kind == GN_SPOT &&
-        (r->sine != 0 || r->low[0] != 0 || r->low[1] != 0 || r->size[0] != ONE || r->size[1] != ONE))
-        return make_spot_view(view, light, r, width, height);
-    if (light->kind == GN_DIRECTIONAL)
+    gn_light fitted = *light;
+    if (light->kind == GN_DIRECTIONAL) {
         fit_box(light, r);
-    return gn_make_light_view(view, light, width, height);
+        return gn_make_light_view(view, light, width, height);
+    }
+    if (r->sine != 0 || r->low[0] != 0 || r->low[1] != 0 || r->size[0] != ONE || r->size[1] != ONE) {
+        gn_status status = fit_frustum(&fitted, r);
+        if (status != GN_OK)
+            return status;
+    }
+    return gn_make_light_view(view, &fitted, width, height);
 }
 
 int gn_find_place_on_plane(const gn_fitting *fitting, uint32_t *left, uint32_t *top)

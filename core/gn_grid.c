@@ -75,10 +75,9 @@ static void walk(const gn_layer_target *t, const gn_rows *rows)
     }
 }
 
-static void aim(const gn_grid *grid, gn_layer_target *t, gn_window *window)
+static void aim(gn_layer_target *t, gn_window *window)
 {
-    t->walk = walk;
-    t->grid = grid;
+    const gn_grid *grid = t->grid;
     t->row = window->row0;
     t->end = window->row1;
     window->row0 = grid->rows[t->row];
@@ -153,6 +152,7 @@ void gn_lay_out_rectilinear(gn_context *context, uint16_t *tables)
     grid->columns = context->fitting->columns;
     grid->rows = context->fitting->rows;
     grid->aim = aim;
+    grid->walk = walk;
     grid->place = place;
     grid->sample = sample;
     context->grid = grid;

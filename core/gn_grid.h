@@ -26,9 +26,10 @@ struct gn_grid {
     const uint16_t *across, *down;
     int32_t width, height; /* texels */
 
-    /* Light pass: have the triangles of a target, whose rows are set in *window, walk over the grid, and turn the
-     * window into fine texels. */
-    void (*aim)(const gn_grid *grid, struct gn_layer_target *t, gn_window *window);
+    /* Light pass: have a target, whose rows are those of *window, keep these, and turn the window into fine texels;
+     * insert a clockwise triangle whose plane is set. */
+    void (*aim)(struct gn_layer_target *t, gn_window *window);
+    void (*walk)(const struct gn_layer_target *t, const gn_rows *rows);
     /* Camera pass: from places in fine texels to places in texels. */
     void (*place)(const struct gn_lookup *lookup, struct gn_points *points);
     /* gn_sample, by a plane in fine texels. */

@@ -16,12 +16,7 @@ typedef enum gn_insertion {
     GN_INSERT_RISING
 } gn_insertion;
 
-typedef struct gn_layer_target gn_layer_target;
-
-/* Insert a clockwise triangle whose plane is set into the texels of a grid. */
-typedef void gn_walk_grid(const gn_layer_target *t, const gn_rows *rows);
-
-struct gn_layer_target {
+typedef struct gn_layer_target {
     gn_depth *first;       /* of the map's first row */
     gn_depth *second;      /* of the region's first row; 0: the first layer alone */
     int32_t second_offset; /* texels from the map's first row to the region's */
@@ -32,14 +27,13 @@ struct gn_layer_target {
     int steep;     /* too steep for plane: the other one */
     gn_wide_plane steep_plane;
     gn_insertion how;
-    gn_walk_grid *walk; /* of a warped map; 0: its texels lie evenly */
-    const gn_grid *grid;
-    int32_t row, end; /* rows of texels that may be written, [row, end) */
+    const gn_grid *grid; /* of a warped map; 0: texels lie evenly */
+    int32_t row, end;    /* grid: rows of texels that may be written, [row, end) */
 #if GN_VECTOR_16
     gn_u32x16 lanes; /* the plane's step to each of 16 texels */
 #endif
     GN_TALLY(gn_tally *tally;)
-};
+} gn_layer_target;
 
 /* The depths are stepped in 32 bits and cut to the stored width: 16-bit layers are the upper half of 32-bit ones. */
 GN_INLINE uint32_t gn_start_depth(const gn_layer_target *t, int32_t row, int32_t left)

@@ -251,8 +251,8 @@ static void set_lanes(gn_layer_target *t)
 /* One clockwise triangle whose plane is set. */
 GN_INLINE void insert(gn_layer_target *t, const gn_rows *rows, const gn_window *window)
 {
-    if (GN_UNLIKELY(t->walk != 0)) {
-        t->walk(t, rows);
+    if (GN_UNLIKELY(t->grid != 0)) {
+        t->grid->walk(t, rows);
     } else if (t->how == GN_INSERT_FIRST) {
         walk_first(t, rows, window);
     } else {
@@ -275,8 +275,8 @@ static GN_COLD void insert_steep(gn_layer_target *t, const gn_mesh *mesh, const 
     t->rise = gn_saturate(gn_rise(t->steep_plane.dx, t->steep_plane.dy));
     t->steep = 1;
     set_lanes(t);
-    if (t->walk)
-        t->walk(t, rows);
+    if (t->grid)
+        t->grid->walk(t, rows);
     else
         walk_any(t, rows, window);
     t->steep = 0;
@@ -417,10 +417,9 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
     context->phase = GN_PHASE_NONE;
     gn_lay_out_light(context, &context->plan, &context->settings);
     context->light = *light;
-    context->texels_across = gn_scale(context->settings.map_width, 0);
-    context->texels_down = gn_scale(context->settings.map_height, 0);
-    const gn_parameterisation *parameterisation = gn_find_parameterisation(&context->settings);
-    gn_status status = parameterisation ? parameterisation->make_view(context)
+    context->texels_across = (uint32_t)context->settings.map_width << 8;
+    context->texels_down = (uint32_t)context->settings.map_height << 8;
+    gn_status status = context->fitting ? context->fitting->make_view(context)
                                         : gn_make_light_view(&context->light_view, light, context->settings.map_width,
                                                              context->settings.map_height);
     int32_t largest_w;
@@ -455,9 +454,9 @@ static GN_NOINLINE void draw_rows(const gn_context *context, gn_layer_target *t,
 {
     gn_window window = {0, (int32_t)row, context->settings.map_width, (int32_t)end};
     t->steep = 0;
-    t->walk = 0;
-    if (context->grid)
-        context->grid->aim(context->grid, t, &window);
+    t->grid = context->grid;
+    if (t->grid)
+        t->grid->aim(t, &window);
     for (uint32_t i = 0; i < context->scene->object_count; i++) {
         t->open = !context->scene->objects[i].mesh->closed;
         insert_mesh(context, t, i, &window);

@@ -75,10 +75,8 @@ static void walk(const gn_layer_target *t, const gn_rows *rows)
     }
 }
 
-static void aim(const gn_grid *grid, gn_layer_target *t, gn_window *window)
+static void aim(gn_layer_target *t, gn_window *window)
 {
-    t->walk = walk;
-    t->grid = grid;
     t->row = window->row0;
     t->end = window->row1;
     window->row0 = window->column0 = 0;

@@ -13,14 +13,10 @@ typedef struct gn_parameterisation gn_parameterisation;
 
 /* The hooks of what has a fit or a warp, one set for all. */
 struct gn_parameterisation {
-    /* of gn_make_plan: settings that make no sense; rounds and bytes */
-    gn_status (*plan)(gn_plan *plan, const gn_settings *settings);
+    /* Of gn_make_plan, when all else is planned: settings that make no sense; rounds and bytes. head: what stays. */
+    gn_status (*plan)(gn_plan *plan, const gn_settings *settings, uint64_t head);
     /* Take from the block, beginning at used, what stays, and return the sum. With a null context count alone. */
     uint64_t (*lay_out_head)(gn_context *context, uint64_t used, const gn_settings *settings);
-    /* The size of what the view pass needs, from the map's place on. */
-    uint64_t (*lay_out_view)(gn_context *context, const gn_plan *plan, const gn_settings *settings);
-    /* The light's view for the light pass. */
-    gn_status (*make_view)(gn_context *context);
 };
 
 /* One round of the view pass. Sums are the worker's own. Of a block's points those that see a surface within the
@@ -51,12 +47,13 @@ struct gn_warp {
 struct gn_fitting {
     gn_rectangle rectangle;
     gn_grid grid;
-    uint16_t *columns, *rows; /* the grid's, as they are made: or across and down */
-    uint8_t fitted;           /* 0: the rectangle is the whole plane */
-    uint8_t *sums;            /* view pass: of worker 0; the others' follow */
-    uint64_t sums_bytes;      /* of one worker */
-    uint8_t round;            /* view pass: which */
-    uint8_t seen;             /* 1: a view pass has ended */
+    uint16_t *columns, *rows;                    /* the grid's, as they are made: or across and down */
+    uint8_t fitted;                              /* 0: the rectangle is the whole plane */
+    uint8_t *sums;                               /* view pass: of worker 0; the others' follow */
+    uint64_t sums_bytes;                         /* of one worker */
+    uint8_t round;                               /* view pass: which */
+    uint8_t seen;                                /* 1: a view pass has ended */
+    gn_status (*make_view)(gn_context *context); /* the light's, for the light pass */
     /* Spot lights: from a place in the rectangle to the one on the whole plane, both in 2^-30; 0: it is not on it. */
     int (*find_place)(const gn_fitting *fitting, uint32_t *left, uint32_t *top);
     /* of the view pass: */

@@ -194,9 +194,10 @@ static uint64_t lay_out_volumes(gn_context *context, uint64_t from, const gn_pla
     return used - from;
 }
 
-/* Head of the block: what stays between the passes. Returns its size; *before_map: of what a view pass leaves of it. */
+/* Head of the block: what stays between the passes. Returns its size; plan->view_bytes: of what stays in a view pass.
+ */
 static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const gn_settings *settings,
-                             const gn_plan *plan, uint64_t *before_map)
+                             const gn_plan *plan)
 {
     int volumes = settings->shadow == GN_SHADOW_VOLUMES;
     uint8_t *base = (uint8_t *)context;
@@ -207,7 +208,6 @@ static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const g
     const gn_parameterisation *parameterisation = gn_find_parameterisation(settings);
     if (parameterisation)
         used = parameterisation->lay_out_head(context, used, settings);
-    *before_map = used;
     gn_depth *map =
         gn_take(base, &used, volumes ? 0 : (uint64_t)map_stride(settings) * settings->map_height * sizeof *map);
     if (context) {
@@ -317,16 +317,10 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
     p.camera_regions = (settings->width + width - 1) / width * ((settings->height + height - 1) / height);
     if (settings->shadow == GN_SHADOW_VOLUMES)
         p.light_regions = 0;
-    const gn_parameterisation *parameterisation = gn_find_parameterisation(settings);
-    if (parameterisation)
-        status = parameterisation->plan(&p, settings);
-    if (status != GN_OK)
-        return status;
-    uint64_t before_map, head = lay_out_head(0, scene, settings, &p, &before_map), light = head, camera = head;
+    uint64_t head = lay_out_head(0, scene, settings, &p), light = head, camera = head;
     light += settings->shadow == GN_SHADOW_VOLUMES ? 0 : gn_lay_out_light(0, &p, settings);
     camera += gn_lay_out_camera(0, &p, settings);
-    uint64_t view = parameterisation ? before_map + parameterisation->lay_out_view(0, &p, settings) : 0;
-    if (light > SIZE_MAX || camera > SIZE_MAX || view > SIZE_MAX)
+    if (light > SIZE_MAX || camera > SIZE_MAX)
         return GN_TOO_MANY;
     if (settings->shadow == GN_SHADOW_MAP)
         p.map_bytes = (size_t)map_stride(settings) * settings->map_height * sizeof(gn_depth);
@@ -334,11 +328,13 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
         p.silhouette_bytes = (size_t)settings->map_width * settings->map_height;
     p.light_bytes = (size_t)light;
     p.camera_bytes = (size_t)camera;
-    p.view_bytes = (size_t)view;
     p.bytes = p.light_bytes > p.camera_bytes ? p.light_bytes : p.camera_bytes;
-    p.bytes = p.view_bytes > p.bytes ? p.view_bytes : p.bytes;
-    *plan = p;
-    return GN_OK;
+    const gn_parameterisation *parameterisation = gn_find_parameterisation(settings);
+    if (parameterisation)
+        status = parameterisation->plan(&p, settings, head);
+    if (status == GN_OK)
+        *plan = p;
+    return status;
 }
 
 gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings *settings, void *memory, size_t bytes)
@@ -363,8 +359,7 @@ gn_status gn_init(gn_context **context, const gn_scene *scene, const gn_settings
         c->settings.reconstruction = 0;
     }
     c->plan = plan;
-    uint64_t before_map;
-    lay_out_head(c, scene, settings, &plan, &before_map);
+    lay_out_head(c, scene, settings, &plan);
     gn_plan counted;
     counts found;
     (void)check_scene(scene, &counted, &found);

@@ -13,12 +13,24 @@ uint32_t gn_point_bits(const gn_context *context)
     return context->shading.position_bits < 8 ? 8 : context->shading.position_bits;
 }
 
+/* Of the light's view: of the map, or a warped map's fine ones. */
+static uint32_t columns_of(const gn_context *context)
+{
+    return (uint32_t)context->light_view.half_width >> 7;
+}
+
+static uint32_t rows_of(const gn_context *context)
+{
+    return (uint32_t)context->light_view.half_height >> 7;
+}
+
 /* A box that need not hold every point; u and v are less by half a texel. */
 static void test_box(const gn_context *context, gn_points *points, uint32_t half)
 {
-    uint32_t bits = context->shading.depth_bits;
+    uint32_t bits = context->shading.depth_bits, width = columns_of(context), height = rows_of(context);
     for (int32_t i = 0; i < points->count; i++) {
-        int outside = gn_outside_box(context, points->u[i] + half, points->v[i] + half, points->z[i]);
+        int outside = gn_outside_box(context->shading.position_bits, width, height, points->u[i] + half,
+                                     points->v[i] + half, points->z[i]);
         points->u[i] = outside ? GN_NOWHERE : points->u[i];
         points->z[i] = outside ? 0 : gn_hold_depth(points->z[i], bits) << (16u - bits);
     }
@@ -71,6 +83,7 @@ static void find_spot(const gn_context *context, gn_points *points, uint32_t *q)
     const gn_shading *s = &context->shading;
     const gn_view *light = &context->light_view;
     gn_runner u = points->row[0], v = points->row[1], d = points->row[2];
+    const uint32_t width = columns_of(context), height = rows_of(context);
     for (int32_t i = 0; i < points->count; i++) {
         uint32_t w = q[i], left = gn_step(&u, w), top = gn_step(&v, w), distance = gn_step(&d, w);
         q[i] = 0;
@@ -79,8 +92,8 @@ static void find_spot(const gn_context *context, gn_points *points, uint32_t *q)
         if (gn_outside_frustum(s, left, top, distance))
             continue; /* unlit */
         uint32_t nearness = gn_divide_place(s, &left, &top, distance);
-        uint32_t u_on_map = (uint32_t)(gn_multiply_u(left, s->width) >> 12) - GN_SPOT_HALF;
-        uint32_t v_on_map = (uint32_t)(gn_multiply_u(top, s->height) >> 12) - GN_SPOT_HALF;
+        uint32_t u_on_map = (uint32_t)(gn_multiply_u(left, width) >> 12) - GN_SPOT_HALF;
+        uint32_t v_on_map = (uint32_t)(gn_multiply_u(top, height) >> 12) - GN_SPOT_HALF;
         if (context->fitting && !context->fitting->find_place(context->fitting, &left, &top))
             continue;
         points->u[i] = u_on_map;

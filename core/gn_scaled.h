@@ -19,6 +19,13 @@ gn_scaled gn_scaled_add(gn_scaled a, gn_scaled b);
 gn_scaled gn_scaled_negate(gn_scaled a);
 gn_scaled gn_scaled_magnitude(gn_scaled a);
 
+/* a 2^n. */
+GN_INLINE gn_scaled gn_scaled_shift(gn_scaled a, int32_t n)
+{
+    a.e += n;
+    return a;
+}
+
 /* Smallest n with |a| <= 2^n; -1000 for 0. */
 int32_t gn_scaled_bits(gn_scaled a);
 

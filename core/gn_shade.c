@@ -48,9 +48,9 @@ GN_INLINE uint32_t find_texel(const lookup *l, uint32_t u, uint32_t v)
 }
 
 /* A light's box that need not hold every point. */
-GN_INLINE uint32_t test_box(const gn_context *context, const lookup *l, uint32_t u, uint32_t v, uint32_t depth)
+GN_INLINE uint32_t test_box(const lookup *l, uint32_t u, uint32_t v, uint32_t depth)
 {
-    return gn_outside_box(context, u, v, depth) ? 0 : gn_hold_depth(depth, l->depth_bits);
+    return gn_outside_box(l->position_bits, l->width, l->height, u, v, depth) ? 0 : gn_hold_depth(depth, l->depth_bits);
 }
 
 /* Any camera, any box. */
@@ -62,7 +62,7 @@ static void shade_directional(const gn_context *context, uint32_t *q, int32_t x,
     for (int32_t i = 0; i < count; i++) {
         uint32_t w = q[i], depth = gn_step(&z, w), column = gn_step(&u, w), row = gn_step(&v, w);
         if (!context->shading.trusted)
-            depth = test_box(context, &l, column, row, depth);
+            depth = test_box(&l, column, row, depth);
         q[i] = gn_compare(gn_cut_raw(depth, l.depth_bits), l.map[find_texel(&l, column, row)]);
     }
 }

@@ -73,11 +73,10 @@ GN_INLINE uint32_t gn_compare(uint32_t z, gn_depth stored)
 }
 
 /* Outside a directional light's box, that is lit; behind it, that is compared at the far end of the range. u, v, z as
- * gn_shading has them. */
-GN_INLINE int gn_outside_box(const gn_context *context, uint32_t u, uint32_t v, uint32_t z)
+ * gn_shading has them; width, height: columns and rows of the light's view. */
+GN_INLINE int gn_outside_box(uint32_t bits, uint32_t width, uint32_t height, uint32_t u, uint32_t v, uint32_t z)
 {
-    const gn_shading *s = &context->shading;
-    return u >> s->position_bits >= s->width || v >> s->position_bits >= s->height || z >> 31;
+    return u >> bits >= width || v >> bits >= height || z >> 31;
 }
 
 GN_INLINE uint32_t gn_hold_depth(uint32_t z, uint32_t bits)

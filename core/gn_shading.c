@@ -33,11 +33,11 @@ static expression make_expression(const gn_context *context, const gn_row *row, 
     int64_t half = row->shift ? (int64_t)1 << (row->shift - 1) : 0;
     int64_t at_eye = row->offset - half + gn_multiply(row->m[0], camera->eye[0]) +
                      gn_multiply(row->m[1], camera->eye[1]) + gn_multiply(row->m[2], camera->eye[2]);
-    gn_scaled zero = {0, 0}, factor = gn_scale(1, exponent);
-    gn_scaled base = gn_scaled_multiply(gn_scaled_add(gn_scale(at_eye, -row->shift), gn_scale(origin, 0)), factor);
-    gn_scaled forward = gn_scaled_multiply(along(row, camera->forward), factor);
-    gn_scaled right = gn_scaled_multiply(along(row, camera->right), factor);
-    gn_scaled up = gn_scaled_multiply(along(row, camera->up), factor);
+    gn_scaled zero = {0, 0};
+    gn_scaled base = gn_scaled_shift(gn_scaled_add(gn_scale(at_eye, -row->shift), gn_scale(origin, 0)), exponent);
+    gn_scaled forward = gn_scaled_shift(along(row, camera->forward), exponent);
+    gn_scaled right = gn_scaled_shift(along(row, camera->right), exponent);
+    gn_scaled up = gn_scaled_shift(along(row, camera->up), exponent);
     expression e = {{base, zero, zero}, {zero, zero, zero}};
     if (camera->projection == GN_PERSPECTIVE) {
         /* a pixel is 2 tan / height wide and high at w = 1 */
@@ -47,8 +47,7 @@ static expression make_expression(const gn_context *context, const gn_row *row, 
         e.b.dy = gn_scaled_negate(gn_scaled_multiply(up, pixel));
     } else {
         gn_scaled pixel = gn_scaled_divide(gn_scale(camera->half_height, 1), height);
-        gn_scaled far_depth =
-            gn_scaled_add(gn_scale(camera->far_depth, 0), gn_scaled_multiply(w_unit, gn_scale(1, 10)));
+        gn_scaled far_depth = gn_scaled_add(gn_scale(camera->far_depth, 0), gn_scaled_shift(w_unit, 10));
         e.a.centre = gn_scaled_add(base, gn_scaled_multiply(forward, far_depth));
         e.a.dx = gn_scaled_multiply(right, pixel);
         e.a.dy = gn_scaled_negate(gn_scaled_multiply(up, pixel));
@@ -59,9 +58,7 @@ static expression make_expression(const gn_context *context, const gn_row *row, 
 
 static gn_scaled half_sum(gn_scaled x, gn_scaled y)
 {
-    gn_scaled sum = gn_scaled_add(x, y);
-    sum.e--;
-    return sum;
+    return gn_scaled_shift(gn_scaled_add(x, y), -1);
 }
 
 static void half_sum_affine(affine *x, const affine *y)
@@ -133,8 +130,6 @@ gn_status gn_make_shading(gn_context *context, int32_t largest_w)
     gn_scaled w_unit = make_w_unit(context, largest_w);
     expression e[3];
     shading->trusted = context->light_trusted;
-    shading->width = (uint32_t)light->half_width >> 7;
-    shading->height = (uint32_t)light->half_height >> 7;
     if (light->affine) {
         e[0] = make_expression(context, &light->row[0], light->centre_x, -8, w_unit);
         e[1] = make_expression(context, &light->row[1], light->centre_y, -8, w_unit);

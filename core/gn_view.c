@@ -93,7 +93,7 @@ static gn_status make_projective(gn_view *view, const int32_t eye[3], const gn_q
         smallest = tan_y;
     if (gn_scaled_add(one, gn_scaled_negate(smallest)).m < 0)
         smallest = one;
-    gn_scaled scale = gn_scaled_multiply(smallest, gn_scale(1, bits));
+    gn_scaled scale = gn_scaled_shift(smallest, bits);
     if (!make_row_from(&view->row[0], right, eye, gn_scaled_divide(scale, tan_x)) ||
         !make_row_from(&view->row[1], up, eye, gn_scaled_divide(scale, tan_y)) ||
         !make_row_from(&view->row[2], forward, eye, scale))
@@ -150,37 +150,30 @@ gn_status gn_make_camera_view(gn_view *view, const gn_camera *camera, int32_t wi
     return GN_OK;
 }
 
-gn_status gn_make_skew_view(gn_view *view, const gn_light *light, const gn_q2_30 across[3], const gn_q2_30 up[3],
-                            gn_scaled tan_x, gn_scaled tan_y, int32_t width, int32_t height)
-{
-    set_size(view, width, height);
-    gn_status status = make_projective(view, light->position, across, up, light->forward, tan_x, tan_y,
-                                       light->near_depth, light->far_depth);
-    if (status != GN_OK)
-        return status;
-    /* z = f / (f - n) (1 - n / w) of the span. */
-    gn_scaled far_w = gn_scale(view->far_w, 0), range = gn_scale((int64_t)view->far_w - view->near_w, 0);
-    gn_scaled scale = gn_scaled_multiply(gn_scaled_divide(far_w, range), gn_scale(GN_DEPTH_SPAN, -30));
-    /* below 2^11, so that two units of Q stay within the guard */
-    if (gn_scaled_bits(scale) > 11)
-        return GN_OUT_OF_RANGE;
-    view->post_projective_depth = 1;
-    view->depth_scale = (uint32_t)scale.m;
-    view->depth_shift = (uint8_t)-scale.e;
-    return GN_OK;
-}
-
 gn_status gn_make_light_view(gn_view *view, const gn_light *light, int32_t width, int32_t height)
 {
+    set_size(view, width, height);
     if (!are_axes(light->right, light->up, light->forward))
         return GN_OUT_OF_RANGE;
     if (light->kind == GN_SPOT) {
-        gn_scaled tangent = gn_scale(light->tan_half, -24);
         if (light->tan_half < (1u << 16) || light->tan_half > (64u << 24))
             return GN_OUT_OF_RANGE;
-        return gn_make_skew_view(view, light, light->right, light->up, tangent, tangent, width, height);
+        gn_scaled tangent = gn_scale(light->tan_half, -24);
+        gn_status status = make_projective(view, light->position, light->right, light->up, light->forward, tangent,
+                                           tangent, light->near_depth, light->far_depth);
+        if (status != GN_OK)
+            return status;
+        /* z = f / (f - n) (1 - n / w) of the span. */
+        gn_scaled far_w = gn_scale(view->far_w, 0), range = gn_scale((int64_t)view->far_w - view->near_w, 0);
+        gn_scaled scale = gn_scaled_multiply(gn_scaled_divide(far_w, range), gn_scale(GN_DEPTH_SPAN, -30));
+        /* below 2^11, so that two units of Q stay within the guard */
+        if (gn_scaled_bits(scale) > 11)
+            return GN_OUT_OF_RANGE;
+        view->post_projective_depth = 1;
+        view->depth_scale = (uint32_t)scale.m;
+        view->depth_shift = (uint8_t)-scale.e;
+        return GN_OK;
     }
-    set_size(view, width, height);
     if (light->kind != GN_DIRECTIONAL)
         return GN_BAD_ARGUMENT;
     view->affine = 1;

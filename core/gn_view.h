@@ -40,11 +40,6 @@ typedef struct gn_view {
 gn_status gn_make_camera_view(gn_view *view, const gn_camera *camera, int32_t width, int32_t height);
 gn_status gn_make_light_view(gn_view *view, const gn_light *light, int32_t width, int32_t height);
 
-/* The same for a spot light and a part of its frustum that need not be about its axis: axes and tangents of a point's
- * place across it and up, -1 to 1, as if they were right and up. */
-gn_status gn_make_skew_view(gn_view *view, const gn_light *light, const gn_q2_30 across[3], const gn_q2_30 up[3],
-                            gn_scaled tan_x, gn_scaled tan_y, int32_t width, int32_t height);
-
 GN_INLINE int64_t gn_apply_row(const gn_row *row, const int32_t p[3])
 {
     int64_t sum =

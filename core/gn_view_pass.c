@@ -2,13 +2,13 @@
  * each visible point's place on the light's plane; sums of these are all that is kept. A round for the fit, then those
  * of the warp, whose places count within the fitted rectangle.
  *
- * Memory: from the map's place on, so a map is lost: what the camera pass needs for visibility, and the sums. */
+ * Memory: what the camera pass needs for visibility, and the sums, in the place of the map, which is lost. */
 #include "gn_bins.h"
 #include "gn_parameterisation.h"
 
 /* ---- planning ---------------------------------------------------------------------------------------------------- */
 
-static gn_status plan_rounds(gn_plan *plan, const gn_settings *s)
+static gn_status check(const gn_settings *s)
 {
     const gn_warp *warp = s->warp;
     if (s->smoothing && (s->smoothing < (1 << 10) || s->smoothing > (64 << 16)))
@@ -20,8 +20,6 @@ static gn_status plan_rounds(gn_plan *plan, const gn_settings *s)
     if (warp && warp->bent &&
         (s->reconstruction || s->surface == GN_SLOPE || (s->receiver && s->receiver->votes && !s->receiver->resample)))
         return GN_UNSUPPORTED;
-    plan->view_rounds = (uint8_t)((s->fit ? 1 : 0) + (warp ? warp->round_count : 0));
-    plan->warp_bytes = warp ? (size_t)warp->table_bytes(s) : 0;
     return GN_OK;
 }
 
@@ -36,6 +34,8 @@ static uint64_t count_sums(const gn_settings *s)
     return (most + GN_ALIGNMENT - 1) / GN_ALIGNMENT * GN_ALIGNMENT;
 }
 
+static gn_status make_view(gn_context *context);
+
 static uint64_t lay_out_head(gn_context *context, uint64_t used, const gn_settings *s)
 {
     uint8_t *base = (uint8_t *)context;
@@ -46,6 +46,7 @@ static uint64_t lay_out_head(gn_context *context, uint64_t used, const gn_settin
         *fitting = none;
         context->fitting = fitting;
         fitting->find_place = gn_find_place_on_plane;
+        fitting->make_view = make_view;
         fitting->grid.width = s->map_width;
         fitting->grid.height = s->map_height;
         if (s->warp)
@@ -56,6 +57,7 @@ static uint64_t lay_out_head(gn_context *context, uint64_t used, const gn_settin
     return used;
 }
 
+/* The sums lie where the map will be, if that is large enough, else behind all else. */
 static uint64_t lay_out_view(gn_context *context, const gn_plan *plan, const gn_settings *settings)
 {
     gn_settings s = *settings;
@@ -63,17 +65,30 @@ static uint64_t lay_out_view(gn_context *context, const gn_plan *plan, const gn_
     s.mask = 0;
     s.receiver = 0;
     s.reconstruction = 0;
-    uint8_t *base = context ? (uint8_t *)context->map : 0, *shared = context ? context->shared : 0;
-    if (context)
-        context->shared = base;
     uint64_t used = gn_lay_out_camera(context, plan, &s), bytes = count_sums(&s);
-    uint8_t *sums = gn_take(base, &used, s.workers * bytes);
+    uint8_t *sums = context ? (uint8_t *)context->map : 0;
+    if (bytes * s.workers > plan->map_bytes)
+        sums = gn_take(context ? context->shared : 0, &used, bytes * s.workers);
     if (context) {
-        context->shared = shared;
         context->fitting->sums = sums;
         context->fitting->sums_bytes = bytes;
     }
     return used;
+}
+
+static gn_status make_plan(gn_plan *plan, const gn_settings *s, uint64_t head)
+{
+    gn_status status = check(s);
+    uint64_t bytes = head + lay_out_view(0, plan, s);
+    if (status != GN_OK)
+        return status;
+    if (bytes > SIZE_MAX)
+        return GN_TOO_MANY;
+    plan->view_bytes = (size_t)bytes;
+    plan->bytes = plan->view_bytes > plan->bytes ? plan->view_bytes : plan->bytes;
+    plan->view_rounds = (uint8_t)((s->fit ? 1 : 0) + (s->warp ? s->warp->round_count : 0));
+    plan->warp_bytes = s->warp ? (size_t)s->warp->table_bytes(s) : 0;
+    return GN_OK;
 }
 
 static gn_status make_view(gn_context *context)
@@ -82,13 +97,16 @@ static gn_status make_view(gn_context *context)
     int32_t width = context->settings.map_width, height = context->settings.map_height;
     if (!fitting->seen)
         return GN_NOT_READY;
-    context->texels_across = gn_scaled_divide(context->texels_across, gn_scale(fitting->rectangle.size[0], -30));
-    context->texels_down = gn_scaled_divide(context->texels_down, gn_scale(fitting->rectangle.size[1], -30));
+    if (context->light.kind == GN_SPOT) {
+        context->texels_across =
+            gn_divide((uint64_t)context->texels_across << 30, (uint32_t)fitting->rectangle.size[0]);
+        context->texels_down = gn_divide((uint64_t)context->texels_down << 30, (uint32_t)fitting->rectangle.size[1]);
+    }
     return gn_make_fitted_view(&context->light_view, &context->light, &fitting->rectangle,
                                context->grid ? GN_FINE : width, context->grid ? GN_FINE : height);
 }
 
-const gn_parameterisation gn_fit_and_warp = {plan_rounds, lay_out_head, lay_out_view, make_view};
+const gn_parameterisation gn_fit_and_warp = {make_plan, lay_out_head};
 
 /* ---- rounds ------------------------------------------------------------------------------------------------------ */
 
