@@ -129,6 +129,12 @@ static void start_inverse(inverse *s, const uint32_t *importance, uint32_t bins,
 }
 
 /* floor(n / d), below 2^14: n < 2^60, d < 2^59. */
+#if GN_WIDE_DIVIDE
+GN_INLINE uint32_t short_quotient(uint64_t n, uint64_t d)
+{
+    return (uint32_t)(n / d);
+}
+#else
 static uint32_t short_quotient(uint64_t n, uint64_t d)
 {
     uint32_t quotient = 0, bit = 1;
@@ -143,6 +149,7 @@ static uint32_t short_quotient(uint64_t n, uint64_t d)
         }
     return quotient;
 }
+#endif
 
 /* floor(GN_FINE x) for the largest x, 0 <= x < 1, where the running sum is not above the texel's:
  * GN_FINE / bins (bin + (target - below) / rise), whole columns left of the bin first. */
