@@ -1,14 +1,15 @@
 /* The golden firmware: renders every golden scene by several methods and prints one hash a stage, so that compilers,
  * word sizes and byte orders can be compared. The scenes are packed once, on the build host, and lie in flash.
  *
- *     hash SCENE METHOD STAGE HASH          stages: layers, map, silhouettes where there are, mask, colour; shadow
- *                                           volumes: mask, colour; axes: cameras and lights set up here
- *     cost SCENE METHOD light N camera N    instructions, where the port counts them
+ *     hash SCENE METHOD STAGE HASH          stages: warp and silhouettes where there are, layers, map, mask, colour;
+ *                                           shadow volumes: mask, colour; axes: cameras and lights set up here
+ *     cost SCENE METHOD view N light N camera N    instructions, where the port counts them; 0 without a view pass
  *     memory plan N stack N                 bytes: of the largest context, and of stack at its deepest
  *
- * Each method runs twice, with the plan's regions and with small ones of our own: equal hashes are required. Exit
- * status 0: every stage ran, every method made light and shadow, those that filter, and no other, fractions, and those
- * with silhouettes a map that holds some. */
+ * Each method runs twice, with the plan's regions and with small ones of our own, which the view pass takes from the
+ * last to the first: equal hashes are required. Exit status 0: every stage ran, every method made light and shadow,
+ * those that filter, and no other, fractions, those with silhouettes a map that holds some, and those with a warp
+ * texels that lie unevenly. */
 #include "gnomon.h"
 #include "port.h"
 #include "print.h"
@@ -54,11 +55,15 @@ typedef struct method {
     gn_q16_16 slope;
     const gn_receiver *receiver;
     const gn_reconstruction *reconstruction;
+    const gn_fit *fit;
+    const gn_warp *warp;
+    gn_q16_16 smoothing;
+    uint8_t fit_depth;
     gn_shadow shadow;
     staging staging;
 } method;
 
-/* Biases: two texels, parts of the light's depth range; slopes: one and two. */
+/* Biases: two texels, parts of the light's depth range; slopes: one and two; twice the usual smoothing. */
 #define TEXELS_2                                                                                                       \
     {                                                                                                                  \
         GN_BIAS_TEXELS, 2 << 16                                                                                        \
@@ -71,9 +76,10 @@ typedef struct method {
     {                                                                                                                  \
         GN_BIAS_RANGE, 0xffffffffu / 2000                                                                              \
     }
-enum { SLOPE_1 = 1 << 16, SLOPE_2 = 2 << 16 };
+enum { SLOPE_1 = 1 << 16, SLOPE_2 = 2 << 16, SMOOTHING_2 = 2 << 16 };
 
-/* Every virtual surface, receiver and reconstruction, over maps that each must be right for, in both staging. */
+/* Every virtual surface, receiver, reconstruction, fit and kind of warp, over maps that each must be right for, in both
+ * staging. */
 static const method methods[] = {
     {.name = "constant", .cull = GN_CULL_NONE, .layers = GN_LAYERS_FIRST, .format = GN_RGB888, .bias = RANGE_50TH},
     {.name = "midpoint", .surface = GN_MIDPOINT, .cull = GN_CULL_NONE, .layers = GN_LAYERS_TWO, .format = GN_RGB565},
@@ -156,6 +162,46 @@ static const method methods[] = {
      .receiver = &gn_virtual,
      .reconstruction = &gn_crossings,
      .staging = MOVED},
+    {.name = "dv", .surface = GN_SECOND, .format = GN_RGB888, .receiver = &gn_virtual, .fit = &gn_desired_view},
+    {.name = "msf-moved",
+     .surface = GN_MIXED,
+     .format = GN_RGB565,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual,
+     .fit = &gn_minimal_frustum,
+     .fit_depth = 1,
+     .staging = MOVED},
+    {.name = "dv-rectilinear",
+     .surface = GN_DUAL,
+     .format = GN_RGB565,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_box_3x3,
+     .fit = &gn_desired_view,
+     .warp = &gn_rectilinear,
+     .smoothing = SMOOTHING_2},
+    {.name = "msf-distance",
+     .format = GN_RGB888,
+     .bias = RANGE_2000TH,
+     .slope = SLOPE_1,
+     .receiver = &gn_plane_bias,
+     .fit = &gn_minimal_frustum,
+     .warp = &gn_rectilinear_distance},
+    {.name = "dv-nonorthogonal",
+     .surface = GN_SECOND,
+     .format = GN_RGB888,
+     .receiver = &gn_virtual,
+     .fit = &gn_desired_view,
+     .warp = &gn_nonorthogonal},
+    {.name = "warped-silhouette",
+     .surface = GN_MIXED,
+     .format = GN_RGB888,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_silhouettes,
+     .fit = &gn_minimal_frustum,
+     .warp = &gn_rectilinear},
+    {.name = "vertices", .format = GN_RGB565, .bias = RANGE_50TH, .warp = &gn_nonorthogonal_vertices},
     {.name = "volumes", .format = GN_RGB888, .shadow = GN_SHADOW_VOLUMES},
     {.name = "volumes-moved", .format = GN_RGB565, .shadow = GN_SHADOW_VOLUMES, .staging = MOVED},
 };
@@ -170,16 +216,17 @@ static gn_depth map[MAP * MAP];
 static uint8_t mask[WIDTH * HEIGHT];
 static uint16_t colour[WIDTH * HEIGHT][3]; /* r, g, b; or one RGB565 value and two zeros */
 
-enum { LAYERS_STAGE, MAP_STAGE, SILHOUETTES_STAGE, MASK_STAGE, COLOUR_STAGE, STAGES };
-static const char *const stage_names[STAGES] = {"layers", "map", "silhouettes", "mask", "colour"};
+enum { WARP_STAGE, LAYERS_STAGE, MAP_STAGE, SILHOUETTES_STAGE, MASK_STAGE, COLOUR_STAGE, STAGES };
+static const char *const stage_names[STAGES] = {"warp", "layers", "map", "silhouettes", "mask", "colour"};
 
 typedef struct result {
     stage_hash stages[STAGES];
-    uint32_t light_instructions, camera_instructions;
+    uint32_t view_instructions, light_instructions, camera_instructions;
     size_t plan_bytes;
     int light_and_shadow;
     int fractions;
     uint32_t silhouettes; /* bytes of their map that hold some */
+    uint32_t uneven;      /* texels that do not lie where those of a uniform map do */
 } result;
 
 static void write_field(const char *text)
@@ -278,6 +325,39 @@ static stage_hash hash_silhouettes(const gn_context *context, uint32_t *some)
     return hash;
 }
 
+static stage_hash hash_rectangle(stage_hash hash, const gn_context *context)
+{
+    gn_rectangle r;
+    if (gn_get_rectangle(context, &r) != GN_OK)
+        return hash;
+    const int32_t numbers[6] = {r.cosine, r.sine, r.low[0], r.low[1], r.size[0], r.size[1]};
+    for (int i = 0; i < 6; i++)
+        hash = stage_hash_u32(hash, (uint32_t)numbers[i]);
+    return hash;
+}
+
+/* Is the place that of a texel's centre in a uniform map, but for 2^-12 of a side? */
+static int is_even(uint32_t place, uint32_t number)
+{
+    uint32_t way = (uint32_t)((((uint64_t)2 * number + 1) << 31) / MAP) - place + (1 << 20);
+    return way < 1 << 21;
+}
+
+/* What the map covers and where its texels lie, after a view pass. */
+static stage_hash hash_warp(const gn_context *context, uint32_t *uneven)
+{
+    stage_hash hash = hash_rectangle(stage_hash_init(), context);
+    *uneven = 0;
+    for (uint32_t y = 0; y < MAP; y++)
+        for (uint32_t x = 0; x < MAP; x++) {
+            uint32_t place[2] = {0, 0};
+            gn_texel_place(context, x, y, place);
+            hash = stage_hash_u32(stage_hash_u32(hash, place[0]), place[1]);
+            *uneven += !is_even(place[0], x) || !is_even(place[1], y);
+        }
+    return hash;
+}
+
 /* What a mask must hold for its hash to say anything. */
 static void look_at_mask(result *out)
 {
@@ -289,6 +369,35 @@ static void look_at_mask(result *out)
     }
     out->light_and_shadow = lit && shadowed;
     out->fractions = lit + shadowed + empty < WIDTH * HEIGHT;
+}
+
+static int has_view(const method *by)
+{
+    return by->fit || by->warp;
+}
+
+static gn_status view_in_steps(gn_context *context, const gn_plan *plan, const golden_scene *golden)
+{
+    gn_status status = gn_view_begin(context, golden->camera, golden->light);
+    for (uint32_t round = 0; status == GN_OK && round < plan->view_rounds; round++) {
+        for (uint32_t region = plan->camera_regions; status == GN_OK && region-- > 0;)
+            status = gn_view_region(context, region, 0);
+        if (status == GN_OK)
+            status = gn_view_end(context);
+    }
+    return status;
+}
+
+static gn_status see_view(result *out, gn_context *context, const gn_plan *plan, const golden_scene *golden,
+                          int in_steps)
+{
+    uint32_t start = port_instructions();
+    gn_status status =
+        in_steps ? view_in_steps(context, plan, golden) : gn_view_pass(context, golden->camera, golden->light);
+    out->view_instructions = port_instructions() - start;
+    if (status == GN_OK)
+        out->stages[WARP_STAGE] = hash_warp(context, &out->uneven);
+    return status;
 }
 
 /* The light pass in steps, so that the layers can be seen before they are resolved. */
@@ -325,6 +434,10 @@ static gn_settings settings_of(const method *by, int small_regions)
     settings.slope = by->slope;
     settings.receiver = by->receiver;
     settings.reconstruction = by->reconstruction;
+    settings.fit = by->fit;
+    settings.warp = by->warp;
+    settings.smoothing = by->smoothing;
+    settings.fit_depth = by->fit_depth;
     settings.mask = 1;
     if (small_regions) {
         settings.map_rows = 24;
@@ -368,6 +481,12 @@ static void render(result *out, const golden_scene *golden, const method *by, in
     if (status != GN_OK)
         fail("init", golden, by, status);
     out->plan_bytes = plan.bytes;
+
+    out->view_instructions = 0;
+    if (has_view(by))
+        status = see_view(out, context, &plan, golden, small_regions);
+    if (status != GN_OK)
+        fail("view", golden, by, status);
 
     status = volumes ? find_volumes(out, context, golden) : render_map(out, context, &plan, golden);
     if (status != GN_OK)
@@ -463,7 +582,9 @@ static void write_cost_line(const char *scene, const char *by, const result *r)
     write_field("cost");
     write_field(scene);
     write_field(by);
-    write_field("light");
+    write_field("view");
+    write_decimal(r->view_instructions);
+    port_write(" light ");
     write_decimal(r->light_instructions);
     port_write(" camera ");
     write_decimal(r->camera_instructions);
@@ -534,6 +655,8 @@ static int has_silhouettes(const method *by)
 
 static int has_stage(const method *by, int stage)
 {
+    if (stage == WARP_STAGE)
+        return has_view(by);
     if (stage == SILHOUETTES_STAGE)
         return has_silhouettes(by);
     return stage >= MASK_STAGE || by->shadow != GN_SHADOW_VOLUMES;
@@ -564,6 +687,8 @@ static size_t render_method(const golden_scene *packed, const method *by)
         fail("fractions-not-as-the-method-has-them", &golden, by, -whole.fractions);
     if (has_stage(by, SILHOUETTES_STAGE) && !whole.silhouettes)
         fail("no-silhouette", &golden, by, 0);
+    if (by->warp && !whole.uneven)
+        fail("no-warp", &golden, by, 0);
     write_cost_line(golden.name, by->name, &whole);
     return whole.plan_bytes > parts.plan_bytes ? whole.plan_bytes : parts.plan_bytes;
 }
@@ -571,7 +696,7 @@ static size_t render_method(const golden_scene *packed, const method *by)
 /* What tests pixels in a way of its own does so in four scenes: the other two would double the time of slow targets. */
 static int is_left_out(const golden_scene *golden, const method *by)
 {
-    return golden->many_triangles && (by->receiver || by->reconstruction || by->surface == GN_SLOPE);
+    return golden->many_triangles && (by->receiver || by->reconstruction || by->surface == GN_SLOPE || has_view(by));
 }
 
 int main(void)

@@ -5,15 +5,19 @@ BEGIN {
     size_count = split(sizes, size)
 }
 
+# A method as tests/report/methods.sh names it.
+function name_of(warp, how) {
+    return warp == "none" ? how : warp "/" how
+}
+
 /^scene,/ { next }
 
 # A line of figures.csv; of a method that it names every cell needs its own.
 /,/ {
     split($0, field, ",")
-    if (field[2] == "none") {
-        reference[field[1], field[3], field[4]] = field[7]
-        known[field[4]] = 1
-    }
+    name = name_of(field[2], field[4])
+    reference[field[1], field[3], name] = field[7]
+    known[name] = 1
     compared = 1
     next
 }
@@ -23,9 +27,10 @@ BEGIN {
         seen[$1] = 1
         scene[++scene_count] = $1
     }
-    shadow[$1, $3, $4] = $5
-    light[$1, $3, $4] = $6
-    total[$1, $3, $4] = $7
+    name = name_of($2, $4)
+    shadow[$1, $3, name] = $5
+    light[$1, $3, name] = $6
+    total[$1, $3, name] = $7
     if ($8 > coverage)
         coverage = $8
 }

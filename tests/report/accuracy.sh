@@ -53,7 +53,7 @@ for scene in "$scenes"/*.scene; do
             status=0
             "$gnomon" compare "$work/mask.pgm" "$truth/$name.pgm" --json "$work/compare.json" >/dev/null || status=$?
             [ $status -le 1 ] || exit 2
-            awk -v row="$name none $size $method" '
+            awk -v row="$name $(warp_of "$method") $size ${method#*/}" '
                 /^  "/ { gsub(/[",:]/, " "); value[$1] = $2 } # members of the outermost object
                 END { print row, value["false_shadow_percent"], value["false_light_percent"], value["error_percent"], \
                       value["coverage_differs"] }' "$work/compare.json" >>"$work/results"

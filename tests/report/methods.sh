@@ -5,6 +5,10 @@
 # where the texels about the point disagree, `+always` at every pixel) and a reconstruction (`+bilinear`, `+jitter4x4`,
 # `+pcf3` and so on; `+sil4n` and `+sil` silhouette maps, of which figures.csv knows the first alone, as its `+sil4` lets
 # the last edge win; `+cross` crossing maps). Any other word is a preset: --method WORD.
+#
+# Before all that a fit, a warp or both may stand, and a stroke: `msf+rtwc/sdm:2+v3`. `dv`, `msf`; `rtwc` rectilinear by
+# counts, `rtw` by distance, `notw` non-orthogonal, `rtwc-vertices` and `notw-vertices` of vertices alone; behind a colon
+# the smoothing (`dv+notw:4`). Without them the map is uniform; figures.csv calls that `none`.
 
 # surface_options NAME: of what stands before the first plus sign. Nothing for a preset.
 surface_options() {
@@ -47,12 +51,32 @@ reconstruction_of() {
     esac
 }
 
+# warp_of NAME: what stands before the stroke; none.
+warp_of() {
+    case $1 in
+    */*) echo "${1%%/*}" ;;
+    *) echo none ;;
+    esac
+}
+
+# parameterisation_options WARP
+parameterisation_options() {
+    words=$(echo "${1%%:*}" | sed 's/rtwc/rectilinear/; s/rtw$/rectilinear-distance/; s/notw/nonorthogonal/')
+    case $1 in
+    none) ;; # what is uniform anyway, and for shadow volumes
+    *:*) echo "--parameterise $words --smoothing ${1#*:}" ;;
+    *) echo "--parameterise $words" ;;
+    esac
+}
+
 # method_options NAME
 method_options() {
-    surface=$(surface_options "${1%%+*}")
+    how=${1#*/}
+    surface=$(surface_options "${how%%+*}")
     if [ -n "$surface" ]; then
-        echo "$surface --receiver $(receiver_of "$1") --reconstruct $(reconstruction_of "$1") --parameterise uniform"
+        echo "$surface --receiver $(receiver_of "$how") --reconstruct $(reconstruction_of "$how")" \
+            "$(parameterisation_options "$(warp_of "$1")")"
     else
-        echo "--method $1"
+        echo "--method $how $(parameterisation_options "$(warp_of "$1")")"
     fi
 }
