@@ -1,5 +1,6 @@
 /* Percentage-closer filtering over a box: N x N texels about the one that holds the point, alike (Reeves et al. 1987).
- * The texels of the border stand for those beyond it. Cost: N x N comparisons. */
+ * The texels of the border stand for those beyond it; those of a warped map count alike, whatever their size. Cost: N x
+ * N comparisons. */
 #include "gn_cascade.h"
 
 /* The part of a box along one axis that lies on the map, and how often its ends count for what lies beyond. */
@@ -64,6 +65,22 @@ GN_INLINE void vote(const gn_lookup *lookup, gn_points *points, uint32_t radius)
     }
 }
 
+/* By a plane of a warped map's fine texels. */
+static uint32_t count_dark_on_grid(const gn_lookup *l, uint32_t u, uint32_t v, const gn_wide_plane *plane,
+                                   int32_t radius)
+{
+    int32_t last_column = (int32_t)l->last_column, last_row = (int32_t)l->last_row;
+    int32_t column = (int32_t)gn_texel(u, l->last_column, l->bits), row = (int32_t)gn_texel(v, l->last_row, l->bits);
+    uint32_t dark = 0;
+    for (int32_t y = row - radius; y <= row + radius; y++)
+        for (int32_t x = column - radius; x <= column + radius; x++) {
+            int32_t i = x < 0 ? 0 : x < last_column ? x : last_column, j = y < 0 ? 0 : y < last_row ? y : last_row;
+            uint32_t z = gn_saturate(gn_wide_depth(plane, l->columns[i], l->rows[j]));
+            dark += gn_cut(z) > l->map[(uint32_t)j * l->stride + (uint32_t)i];
+        }
+    return dark;
+}
+
 static void vote_any(const gn_lookup *lookup, gn_points *points)
 {
     vote(lookup, points, lookup->whole == 9 ? 1 : lookup->whole == 25 ? 2 : 3);
@@ -71,7 +88,10 @@ static void vote_any(const gn_lookup *lookup, gn_points *points)
 
 static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
-    return count_dark(l, points->u[i], points->v[i], 0, plane, l->whole == 9 ? 1 : l->whole == 25 ? 2 : 3);
+    uint32_t radius = l->whole == 9 ? 1 : l->whole == 25 ? 2 : 3;
+    if (l->columns)
+        return count_dark_on_grid(l, points->u[i], points->v[i], plane, (int32_t)radius);
+    return count_dark(l, points->u[i], points->v[i], 0, plane, radius);
 }
 
 const gn_reconstruction gn_box_3x3 = {gn_cascade_row, vote_any, sample, gn_colour_fractions, 9, 9, 9, 0, 0};

@@ -6,24 +6,28 @@ enum { TO_RIGHT = 0, TO_BELOW = 4 }; /* bits of a texel's byte */
 
 /* Where a segment crosses the line through a row or a column of centres. */
 typedef struct crossing {
-    int32_t t, length; /* the way from the segment's upper end, and to its lower one, across such lines */
-    int32_t place;     /* along the line, rounded down */
-    int32_t before;    /* the last texel that lies before it */
+    int32_t t, length;   /* the way from the segment's upper end, and to its lower one, across such lines */
+    const gn_axis *axis; /* of the centres along the line */
+    int32_t place;       /* along the line, rounded down */
+    int32_t before;      /* the last texel that lies before it */
 } crossing;
 
 /* from, d: the segment's upper end and extent along the line. goes_after: a centre that it meets lies before it. */
-static void find_crossing(crossing *x, int32_t from, int32_t d, int goes_after)
+static void find_crossing(crossing *x, const gn_axis *axis, int32_t from, int32_t d, int goes_after)
 {
     int rest;
+    x->axis = axis;
     x->place = from + gn_segment_share(d, x->t, x->length, &rest);
-    x->before = gn_floor_shift(x->place - !(rest || goes_after), 8);
+    x->before = gn_centre_before(axis, x->place - !(rest || goes_after));
 }
 
 /* From the texel before it. */
 static uint32_t code_of(const crossing *x)
 {
-    int32_t code = (x->place - 256 * x->before + 8) >> 4;
-    return code < 1 ? 1 : code > 15 ? 15 : (uint32_t)code;
+    uint32_t side = (uint32_t)gn_step_after(x->axis, x->before);
+    uint32_t way = (uint32_t)(x->place - gn_centre(x->axis, x->before)) + 8 * side;
+    uint32_t code = (side == 1 ? way : way / side) >> 4;
+    return code < 1 ? 1 : code > 15 ? 15 : code;
 }
 
 /* node: the byte of the texel before the crossing. depth: of the texels before and after it. */
@@ -53,18 +57,19 @@ static int32_t largest(int32_t a, int32_t b)
 }
 
 /* The first line at or beyond a place; lines [first_line(a), first_line(b)) are crossed from a to b > a. */
-static int32_t first_line(int32_t place)
+static int32_t first_line(const gn_axis *axis, int32_t place)
 {
-    return gn_floor_shift(place + 255, 8);
+    return gn_centre_before(axis, place - 1) + 1;
 }
 
 static void cross_rows(const gn_canvas *c, const gn_stroke *stroke)
 {
     const gn_segment *s = &stroke->segment;
-    int32_t row = largest(first_line(s->y), c->first), end = least(first_line(s->y + s->dy), c->end);
+    const gn_axis *rows = &c->cells.rows;
+    int32_t row = largest(first_line(rows, s->y), c->first), end = least(first_line(rows, s->y + s->dy), c->end);
     for (; row < end; row++) {
-        crossing x = {256 * row - s->y, s->dy, 0, 0};
-        find_crossing(&x, s->x, s->dx, 0);
+        crossing x = {gn_centre(rows, row) - s->y, s->dy, 0, 0, 0};
+        find_crossing(&x, &c->cells.columns, s->x, s->dx, 0);
         if (x.before < 0 || x.before > c->width - 2)
             continue;
         put(stroke, &x, c->map + (row - c->first) * c->width + x.before, TO_RIGHT, gn_canvas_row(c, row) + x.before,
@@ -75,7 +80,9 @@ static void cross_rows(const gn_canvas *c, const gn_stroke *stroke)
 /* The columns of centres that are crossed within the region's rows, and a few beside them. */
 static void find_columns(const gn_canvas *c, const gn_segment *s, int32_t *column, int32_t *end)
 {
-    int32_t top = 256 * c->first - s->y, bottom = 256 * c->end - s->y, from = s->x, to = s->x + s->dx;
+    const gn_axis *columns = &c->cells.columns, *rows = &c->cells.rows;
+    int32_t top = gn_centre(rows, rows->first) - s->y, bottom = gn_centre(rows, rows->end - 1) - s->y;
+    int32_t from = s->x, to = s->x + s->dx;
     int rest;
     *column = *end = 0;
     if (top > s->dy || bottom < 0)
@@ -84,20 +91,20 @@ static void find_columns(const gn_canvas *c, const gn_segment *s, int32_t *colum
         to = s->x + gn_segment_share(s->dx, bottom, s->dy, &rest) + (s->dx > 0);
     if (top > 0)
         from = s->x + gn_segment_share(s->dx, top, s->dy, &rest) + (s->dx < 0);
-    *column = largest(first_line(least(from, to)), 0);
-    *end = least(first_line(largest(from, to)), c->width);
+    *column = largest(first_line(columns, least(from, to)), 0);
+    *end = least(first_line(columns, largest(from, to)), c->width);
 }
 
 static void cross_columns(const gn_canvas *c, const gn_stroke *stroke)
 {
     const gn_segment *s = &stroke->segment;
-    int32_t column, end, end_row = gn_end_of_cells(c);
+    int32_t column, end;
     find_columns(c, s, &column, &end);
     for (; column < end; column++) {
-        int32_t t = 256 * column - s->x;
-        crossing x = {t < 0 ? -t : t, s->dx < 0 ? -s->dx : s->dx, 0, 0};
-        find_crossing(&x, s->y, s->dy, s->dx > 0 && s->dy > 0);
-        if (x.before < c->first || x.before >= end_row)
+        int32_t t = gn_centre(&c->cells.columns, column) - s->x;
+        crossing x = {t < 0 ? -t : t, s->dx < 0 ? -s->dx : s->dx, 0, 0, 0};
+        find_crossing(&x, &c->cells.rows, s->y, s->dy, s->dx > 0 && s->dy > 0);
+        if (x.before < c->first || x.before > c->cells.rows.end - 2)
             continue;
         gn_depth depth[2] = {gn_canvas_row(c, x.before)[column], gn_canvas_row(c, x.before + 1)[column]};
         put(stroke, &x, c->map + (x.before - c->first) * c->width + column, TO_BELOW, depth, stroke->dx < 0);

@@ -1,6 +1,7 @@
 #include "gn_drawing.h"
 
 #include "gn_clip.h"
+#include "gn_grid.h"
 #include "gn_silhouette.h"
 
 /* ---- planning ---------------------------------------------------------------------------------------------------- */
@@ -90,6 +91,8 @@ void gn_begin_canvas(gn_context *context, uint32_t region, uint32_t worker, gn_c
     int32_t width = settings->map_width, height = settings->map_height, rows = context->plan.map_rows;
     int32_t first = (int32_t)region * rows, end = first + rows < height ? first + rows : height;
     uint32_t stride = context->map_stride;
+    const gn_grid *grid = context->grid;
+    gn_cells cells = {{grid ? grid->columns : 0, 0, width}, {grid ? grid->rows : 0, first, end + (end < height)}};
     c->map = drawn->map + first * width;
     c->texels = context->map + (size_t)first * stride;
     c->beyond = 0;
@@ -97,6 +100,7 @@ void gn_begin_canvas(gn_context *context, uint32_t region, uint32_t worker, gn_c
     c->stride = (int32_t)stride;
     c->first = first;
     c->end = end;
+    c->cells = cells;
     if (end < height) {
         gn_depth *row = drawn->row + worker * stride;
         gn_nearest_row(context, worker, end, row);

@@ -4,6 +4,8 @@
  * The depths are the nearest layer's, before it is resolved. A region that ends within the map draws the nearest depths
  * of the row after it once more for its last row of cells.
  *
+ * On a warped map (gn_grid.h) segments count in fine texels, and cells are as wide and high as their centres lie apart.
+ *
  * Not drawn: the border of what a spot light's near plane cuts off, which is no edge of a mesh. An edge of more than
  * two triangles is drawn pair by pair, even where the sum over all of them is no silhouette.
  *
@@ -32,7 +34,7 @@ struct gn_drawing {
 struct gn_drawn {
     uint8_t *map;     /* a byte a texel, rows as long as the map is wide */
     gn_depth *keys;   /* gn_silhouette_map.c, light pass: rank of the points that won; a region's a worker */
-    uint32_t reach;   /* gn_silhouette_map.c, light pass: of 2^32 */
+    uint32_t reach;   /* gn_silhouette_map.c, light pass: how far behind an edge a texel is its caster's, of 2^32 */
     gn_depth *row;    /* light pass: the row after a region; one a worker */
     uint8_t *facings; /* light pass: gn_find_facings */
     uint32_t *chosen; /* light pass: a bit an edge of the scene, 1: a silhouette */
@@ -63,18 +65,13 @@ struct gn_canvas {
     int32_t width;          /* of the map */
     int32_t stride;
     int32_t first, end; /* rows of the region, [first, end) */
+    gn_cells cells;     /* between the map's columns, and the region's rows and the one after it */
     gn_depth *keys;     /* gn_silhouette_map.c: rank of the points in map */
-    uint32_t reach;     /* gn_silhouette_map.c: how far behind an edge a texel still belongs to it, of 2^32 */
+    uint32_t reach;     /* gn_silhouette_map.c: of gn_drawn; on a warped map for a cell of one fine texel */
 };
 
 /* The canvas of a region, but for draw, keys and reach. */
 void gn_begin_canvas(gn_context *context, uint32_t region, uint32_t worker, gn_canvas *c);
-
-/* The row after the last one that has texels below it. */
-GN_INLINE int32_t gn_end_of_cells(const gn_canvas *c)
-{
-    return c->beyond ? c->end : c->end - 1;
-}
 
 /* Depths of a row, or of the one after the region. */
 GN_INLINE const gn_depth *gn_canvas_row(const gn_canvas *c, int32_t row)

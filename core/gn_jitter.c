@@ -26,7 +26,8 @@ GN_INLINE uint32_t count_dark(const gn_lookup *l, gn_points *points, int32_t i, 
         uint32_t column = texel_at(points->u[i], cell_x, matrix[turned_y][turned_x], l->last_column, l->bits);
         uint32_t row = texel_at(points->v[i], cell_y, matrix[turned_x][(turned_y + 2) % CELLS], l->last_row, l->bits);
         if (plane)
-            z = gn_cut(gn_saturate(gn_wide_depth(plane, (int32_t)column, (int32_t)row)));
+            z = gn_cut(gn_saturate(gn_wide_depth(plane, (int32_t)(l->columns ? l->columns[column] : column),
+                                                 (int32_t)(l->columns ? l->rows[row] : row))));
         dark += z > l->map[row * l->stride + column];
     }
     return dark;

@@ -1,14 +1,33 @@
 /* Receiver-plane bias: the point is compared as if it lay nearer to the light by settings.slope times h, the most that
  * its own plane rises within half a texel of it, h = (|dz/du| + |dz/dv|) / 2. A rival of virtual samples that needs
  * the same plane at every pixel, and a factor that somebody chooses: 1 for the nearest texel, more for wider filters.
- */
+ * On a warped map the texel is as large as its neighbours lie apart, in the mean of both sides. */
 #include "gn_cascade.h"
 
-/* slope h in units of z. */
-static uint32_t bias_of(const gn_wide_plane *plane, uint32_t slope)
+/* slope rise in units of z. */
+static uint32_t bias_of(int64_t rise, uint32_t slope)
 {
-    uint64_t bias = gn_multiply_u(gn_saturate(gn_rise(plane->dx, plane->dy)), slope) >> 16;
+    uint64_t bias = gn_multiply_u(gn_saturate(rise), slope) >> 16;
     return bias >> 32 ? 0xffffffffu : (uint32_t)bias;
+}
+
+/* Twice the size of a texel along one axis, in fine texels; at the border by the one neighbour that there is. */
+static int64_t twice_size(const uint16_t *centres, uint32_t texel, uint32_t last)
+{
+    if (texel == 0 || texel == last)
+        return 2 * (texel ? centres[last] - centres[last - 1] : centres[1] - centres[0]);
+    return centres[texel + 1] - centres[texel - 1];
+}
+
+/* What a plane of fine texels rises within half a texel. */
+static int64_t rise_on_grid(const gn_context *context, const gn_wide_plane *plane, uint32_t u, uint32_t v)
+{
+    const gn_grid *grid = context->grid;
+    uint32_t bits = gn_point_bits(context);
+    uint32_t last_column = context->settings.map_width - 1u, last_row = context->settings.map_height - 1u;
+    return gn_rise(plane->dx * twice_size(grid->columns, gn_texel(u, last_column, bits), last_column),
+                   plane->dy * twice_size(grid->rows, gn_texel(v, last_row, bits), last_row)) /
+           2;
 }
 
 static void move_nearer(const gn_context *context, gn_worker *worker, gn_points *points)
@@ -17,9 +36,12 @@ static void move_nearer(const gn_context *context, gn_worker *worker, gn_points 
     for (int32_t i = 0; i < points->count; i++) {
         if (points->triangle[i] == GN_NO_TRIANGLE || points->u[i] == GN_NOWHERE)
             continue;
-        if (points->triangle[i] != last) {
+        if (points->triangle[i] != last || context->grid) {
             last = points->triangle[i];
-            bias = bias_of(&gn_find_plane(context, worker, last)->plane, (uint32_t)context->settings.slope);
+            const gn_wide_plane *plane = &gn_find_plane(context, worker, last)->plane;
+            int64_t rise = context->grid ? rise_on_grid(context, plane, points->u[i], points->v[i])
+                                         : gn_rise(plane->dx, plane->dy);
+            bias = bias_of(rise, (uint32_t)context->settings.slope);
         }
         points->z[i] = points->z[i] > bias ? points->z[i] - bias : 0;
     }

@@ -6,8 +6,8 @@
  * surface that it borders. */
 #define POINT_ERROR 0x10000u
 
-/* How far behind an edge a texel may lie and still be its caster's, or in line with it: so many texels at 45 degrees.
- * Found by measurement (docs/accuracy.md). */
+/* How far behind an edge a texel may lie and still be its caster's, or in line with it: so many texels at 45 degrees,
+ * as large as those about the edge. Found by measurement (docs/accuracy.md). */
 enum { REACH = 4 };
 
 /* The end of the depths before an empty texel's. */
@@ -59,18 +59,17 @@ static int is_hidden(const gn_depth texel[4], uint32_t z)
 }
 
 /* The texels of a cell, a bit each, on the caster's side of an edge, and on the other; one on its line is on neither.
- * x, y: of the segment's upper end, from the upper left texel. */
-static void find_sides(const gn_stroke *s, int32_t x, int32_t y, uint32_t *caster, uint32_t *other)
+ */
+static void find_sides(const gn_stroke *s, const gn_cell *cell, uint32_t *caster, uint32_t *other)
 {
-    /* Modulo 2^32: the segment passes through the cell, so its length, below 2^21.5, times the way of a texel to it,
-     * 2^8.5 at most, stays within 2^30. */
-    uint32_t dx = (uint32_t)s->dx, dy = (uint32_t)s->dy;
-    uint32_t side = dy * (uint32_t)x - dx * (uint32_t)y; /* of the upper left texel: < 0 the caster's */
+    int32_t x = s->segment.x - cell->x, y = s->segment.y - cell->y;
+    int64_t across = gn_multiply(s->dy, 256 * cell->width), down = gn_multiply(s->dx, 256 * cell->height);
+    int64_t side = gn_multiply(s->dy, x) - gn_multiply(s->dx, y); /* of the upper left texel: < 0 the caster's */
     *caster = *other = 0;
     for (int i = 0; i < 4; i++) {
-        *caster |= (uint32_t)((int32_t)side < 0) << i;
-        *other |= (uint32_t)((int32_t)side > 0) << i;
-        side += i == 1 ? 256 * (dx + dy) : 0u - 256 * dy; /* on to the next: to the right, or to the row below */
+        *caster |= (uint32_t)(side < 0) << i;
+        *other |= (uint32_t)(side > 0) << i;
+        side += i == 1 ? across + down : -across; /* on to the next: to the right, or to the row below */
     }
 }
 
@@ -83,7 +82,8 @@ static uint32_t find_far(const gn_depth texel[4], uint32_t limit)
     return far_off;
 }
 
-/* The square of the distance from a point to the nearest of some texels of its cell, at most 2^17. */
+/* The square of the distance from a point to the nearest of some texels of its cell, at most 2^17, as if the cell were
+ * a square. */
 static uint32_t distance_to(const gn_segment_point *p, uint32_t texels)
 {
     uint32_t least = 1u << 17;
@@ -95,7 +95,7 @@ static uint32_t distance_to(const gn_segment_point *p, uint32_t texels)
     return least;
 }
 
-/* The 4 bits of an offset, in 1/16 texel, to the nearest. */
+/* The 4 bits of an offset, in 1/16 of the cell's side, to the nearest. */
 static uint32_t round_offset(int32_t v)
 {
     uint32_t offset = (uint32_t)(v + 8) >> 4;
@@ -118,16 +118,17 @@ static void draw_cell(const gn_canvas *c, const gn_stroke *s, int32_t column, in
     gn_segment_point p;
     gn_depth texel[4];
     uint32_t caster = 0, other = 0;
-    gn_segment_in_cell(&s->segment, column, row, &p);
-    uint32_t z = 2 * p.z, limit = z + c->reach;
-    if (limit < z || limit > LAST)
-        limit = LAST;
+    gn_cell cell = gn_cell_between(&c->cells, column, row);
+    gn_segment_in_cell(&s->segment, &cell, &p);
+    uint32_t z = 2 * p.z;
+    uint64_t far_limit = z + (gn_multiply_u(c->reach, (uint32_t)(cell.width + cell.height)) >> 1);
+    uint32_t limit = far_limit > LAST ? LAST : (uint32_t)far_limit;
     find_texels(c, column, row, texel);
     if (is_hidden(texel, z))
         return;
     uint32_t far_off = find_far(texel, limit);
     if (far_off && far_off != 15) /* else nothing separates them */
-        find_sides(s, s->segment.x - 256 * column, s->segment.y - 256 * row, &caster, &other);
+        find_sides(s, &cell, &caster, &other);
     int separates = (caster & ~far_off) && (other & far_off);
     if (s->alone && !separates)
         return;
@@ -142,18 +143,23 @@ static void draw_cell(const gn_canvas *c, const gn_stroke *s, int32_t column, in
 
 static void draw_stroke(const gn_canvas *c, const gn_stroke *s)
 {
-    int32_t row, last, end = gn_end_of_cells(c);
-    gn_segment_rows(&s->segment, &row, &last);
-    row = row < c->first ? c->first : row;
-    last = last < end ? last : end - 1;
+    int32_t row, last;
+    gn_segment_rows(&s->segment, &c->cells.rows, &row, &last);
     for (; row <= last; row++) {
         int32_t column, last_column;
-        gn_segment_columns(&s->segment, row, &column, &last_column);
-        column = column < 0 ? 0 : column;
-        last_column = last_column < c->width - 2 ? last_column : c->width - 2;
+        gn_segment_columns(&s->segment, &c->cells, row, &column, &last_column);
         for (; column <= last_column; column++)
             draw_cell(c, s, column, row);
     }
+}
+
+/* The reach in a cell of one fine texel: that of a texel of the mean size, width / GN_FINE of it. */
+static uint32_t reach_of(const gn_context *context)
+{
+    uint32_t width = context->settings.map_width, height = context->settings.map_height;
+    if (!context->grid)
+        return context->drawn->reach;
+    return gn_divide(gn_multiply_u(context->drawn->reach, 2 * width * height), GN_FINE * (width + height));
 }
 
 static void draw(gn_context *context, uint32_t region, uint32_t worker)
@@ -161,7 +167,7 @@ static void draw(gn_context *context, uint32_t region, uint32_t worker)
     gn_canvas c;
     gn_begin_canvas(context, region, worker, &c);
     c.draw = draw_stroke;
-    c.reach = context->drawn->reach;
+    c.reach = reach_of(context);
     c.keys = context->drawn->keys + worker * region_texels(&context->plan, &context->settings);
     int32_t count = (c.end - c.first) * c.width;
     uint8_t *map = c.map; /* bytes may alias the canvas */

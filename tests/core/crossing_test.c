@@ -53,14 +53,13 @@ static void random_patch(patch *p)
             p->texels[row * (p->width + PADDING) + column] =
                 (gn_depth)((gn_depth)(z >> (32 - GN_DEPTH_BITS)) - (gn_depth)dark);
         }
-    gn_lookup l = {p->texels,
-                   (uint32_t)(p->width + PADDING),
-                   (uint32_t)p->width - 1,
-                   (uint32_t)p->height - 1,
-                   (uint32_t)p->bits,
-                   0,
-                   gn_crossings.whole,
-                   p->bytes};
+    gn_lookup l = {.map = p->texels,
+                   .stride = (uint32_t)(p->width + PADDING),
+                   .last_column = (uint32_t)p->width - 1,
+                   .last_row = (uint32_t)p->height - 1,
+                   .bits = (uint32_t)p->bits,
+                   .whole = gn_crossings.whole,
+                   .silhouettes = p->bytes};
     p->lookup = l;
 }
 

@@ -42,9 +42,13 @@ typedef struct patch {
 
 static void set_lookup(patch *p)
 {
-    uint32_t last_column = (uint32_t)p->width - 1, last_row = (uint32_t)p->height - 1;
-    gn_lookup l = {p->texels, (uint32_t)(p->width + PADDING), last_column, last_row, (uint32_t)p->bits,
-                   0,         gn_silhouettes.whole,           p->cells};
+    gn_lookup l = {.map = p->texels,
+                   .stride = (uint32_t)(p->width + PADDING),
+                   .last_column = (uint32_t)p->width - 1,
+                   .last_row = (uint32_t)p->height - 1,
+                   .bits = (uint32_t)p->bits,
+                   .whole = gn_silhouettes.whole,
+                   .silhouettes = p->cells};
     p->lookup = l;
 }
 
@@ -851,7 +855,8 @@ static void draw_in_cell(twin *t, const gn_settings *s, const gn_vertex end[2], 
     gn_segment segment;
     gn_segment_point p;
     gn_make_segment(&segment, &end[0], &end[1]);
-    gn_segment_in_cell(&segment, column, row, &p);
+    gn_cell cell = {256 * column, 256 * row, 1, 1};
+    gn_segment_in_cell(&segment, &cell, &p);
     int64_t z = 2 * (int64_t)p.z, farthest = 0, near_caster = 0, far_off = 0, squared = INT64_MAX;
     int64_t dx = end[1].x - end[0].x, dy = end[1].y - end[0].y;
     /* an empty texel is always far behind */
@@ -886,12 +891,12 @@ static void draw_in_cell(twin *t, const gn_settings *s, const gn_vertex end[2], 
     t->apart += parts;
     int32_t x = (p.x + 8) / 16, y = (p.y + 8) / 16;
     uint64_t rank = key << 8 | (uint64_t)((y > 15 ? 15 : y) << 4 | (x > 15 ? 15 : x));
-    twin_cell *cell = &t->cells[row * s->map_width + column];
-    t->contested += cell->found && cell->rank != rank;
-    if (!cell->found || rank < cell->rank)
-        cell->rank = rank;
-    t->points += !cell->found;
-    cell->found = 1;
+    twin_cell *best = &t->cells[row * s->map_width + column];
+    t->contested += best->found && best->rank != rank;
+    if (!best->found || rank < best->rank)
+        best->rank = rank;
+    t->points += !best->found;
+    best->found = 1;
 }
 
 static void draw_edge(twin *t, const gn_context *context, const gn_object *object, const uint32_t index[2], int winding,
