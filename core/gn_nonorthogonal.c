@@ -218,6 +218,7 @@ static void lay_out(gn_context *context, uint16_t *tables)
     fitting->grid.across = fitting->columns;
     fitting->grid.down = fitting->rows;
     fitting->grid.aim = aim;
+    fitting->grid.walk = walk;
     fitting->grid.place = place;
     fitting->grid.sample = sample;
     context->grid = &fitting->grid;
