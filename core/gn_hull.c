@@ -9,8 +9,9 @@
  *
  * The hull falls into two chains. Seen after half a turn, the upper one is a lower one too, and the margin above it
  * takes the place of the margin below: there is code for lower chains only, and each looks at the plane from its side.
+ * The words are for y upward.
  *
- * Numbers are exact integers, and lengths here in rows of 2 units: a coordinate is in [0, 2^15], an edge (x, y) has
+ * Numbers are exact integers, and lengths here in rows: a coordinate is in [0, 2^15], an edge (x, y) has
  * |x|, |y| < 2^15, an extent of a rectangle times the edge's length is below 2^15 (|x| + |y|) < 2^31. Areas, two of
  * those over x^2 + y^2, are compared by products of 93 bits.
  *
@@ -22,8 +23,7 @@
 #define SIDE GN_HULL_ROWS                   /* of the plane */
 #define CELL_WIDTH (SIDE / GN_HULL_COLUMNS) /* its height is 1 */
 #define LINK 0x8000u                        /* margin: the chain leaves the column out */
-#define FRACTION (2 * 256)                  /* of a row, in gn_enclosure */
-#define ONE ((int32_t)1 << 30)              /* Q2.30 */
+#define ROW_BITS 15                         /* fraction bits of a row in gn_rectangle: 2^30 is the side */
 
 typedef struct point {
     int32_t x, y;
@@ -208,7 +208,7 @@ static gn_q2_30 part_of_length(int32_t x, unsigned n, uint32_t length)
     return (gn_q2_30)gn_divide(((uint64_t)((uint32_t)x) << (n + 30)) + length / 2, length);
 }
 
-static void set_axis(gn_enclosure *rectangle, point d)
+static void set_axis(gn_rectangle *rectangle, point d)
 {
     uint64_t square = (uint32_t)(d.x * d.x) + (uint32_t)(d.y * d.y); /* below 2^31 */
     unsigned n = gn_leading_zeros_64(square) / 2;
@@ -234,9 +234,9 @@ static void contain(int64_t *low, int64_t *high, point p, gn_q2_30 x, gn_q2_30 y
         *high = end;
 }
 
-/* Set low and high by the rounded axis: every corner of the hull counts, since another than the one that the caliper
+/* Set low and size by the rounded axis: every corner of the hull counts, since another than the one that the caliper
  * touches may now lie further out. */
-static void set_bounds(gn_enclosure *rectangle, const struct chain chains[2])
+static void set_bounds(gn_rectangle *rectangle, const struct chain chains[2])
 {
     int64_t low[2] = {INT64_MAX, INT64_MAX}, high[2] = {INT64_MIN, INT64_MIN};
     for (int i = 0; i < 2; i++) {
@@ -253,13 +253,14 @@ static void set_bounds(gn_enclosure *rectangle, const struct chain chains[2])
                 break;
         }
     }
+    const unsigned drop = 30 - ROW_BITS;
     for (int k = 0; k < 2; k++) {
-        rectangle->low[k] = (int32_t)gn_floor_shift_64(low[k] * FRACTION, 30);
-        rectangle->high[k] = (int32_t)gn_floor_shift_64(high[k] * FRACTION + ONE - 1, 30);
+        rectangle->low[k] = (int32_t)gn_floor_shift_64(low[k], drop);
+        rectangle->size[k] = (int32_t)-gn_floor_shift_64(-high[k], drop) - rectangle->low[k];
     }
 }
 
-int gn_find_enclosure(gn_enclosure *rectangle, gn_extent extents[GN_HULL_COLUMNS])
+int gn_find_rectangle(gn_rectangle *rectangle, gn_extent extents[GN_HULL_COLUMNS])
 {
     struct chain chains[2] = {{extents, 0, 0, 0}, {extents, GN_HULL_COLUMNS - 1, 0, 0}};
     if (!build_chain(&chains[0]))

@@ -21,7 +21,7 @@ static void add(const gn_context *context, void *sums, const gn_points *points, 
     (void)w;
     for (int32_t i = 0; i < points->count; i++)
         if (points->u[i] != GN_NOWHERE)
-            gn_add_extent(sums, gn_share(points->u[i], bits) >> 14, gn_share(points->v[i], bits) >> 14);
+            gn_add_extent(sums, gn_share(points->u[i], bits), gn_share(points->v[i], bits));
 }
 
 static void merge(const gn_settings *settings, void *sums, const void *other)
@@ -32,17 +32,11 @@ static void merge(const gn_settings *settings, void *sums, const void *other)
 
 static void end(gn_context *context, void *sums)
 {
-    gn_enclosure e;
-    if (!gn_find_enclosure(&e, sums)) { /* nothing is seen */
+    gn_rectangle r;
+    if (gn_find_rectangle(&r, sums))
+        gn_set_rectangle(context, &r);
+    else /* nothing is seen */
         gn_whole_plane(&context->fitting->rectangle, &context->fitting->light);
-        return;
-    }
-    gn_rectangle r = {e.cosine, e.sine, {0, 0}, {0, 0}};
-    for (int i = 0; i < 2; i++) {
-        r.low[i] = e.low[i] * 64;
-        r.size[i] = (e.high[i] - e.low[i]) * 64;
-    }
-    gn_set_rectangle(context, &r);
 }
 
 const gn_fit gn_minimal_frustum = {&gn_fit_and_warp, {bytes, clear, add, merge, end}};

@@ -10,9 +10,9 @@
 #include <string.h>
 
 #define ONE ((int32_t)1 << 30) /* Q2.30 */
-#define SIDE 65536
-#define CELL_WIDTH 16
-#define CELL_HEIGHT 2
+#define SIDE 65536             /* of the plane, in the units of this file */
+#define CELL_WIDTH 16          /* 4096 columns */
+#define CELL_HEIGHT 2          /* 32768 rows */
 #define SMALL_MAX 12
 #define LARGE_MAX 40000
 
@@ -45,16 +45,23 @@ static void add(int64_t x, int64_t y)
         samples[sample_count++] = p;
 }
 
-static int find(gn_enclosure *rectangle)
+/* Somewhere in [x, x + 1) x [y, y + 1), but always there. */
+static void add_to(gn_extent to[GN_HULL_COLUMNS], struct point p)
+{
+    uint64_t state = (uint64_t)(p.x * SIDE + p.y), place = tap_random(&state);
+    gn_add_extent(to, (uint32_t)(p.x << 14 | (int64_t)(place & 0x3fff)),
+                  (uint32_t)(p.y << 14 | (int64_t)(place >> 50)));
+}
+
+static int find(gn_rectangle *rectangle)
 {
     gn_clear_extents(extents);
     for (int i = 0; i < sample_count; i++)
-        gn_add_extent(extents, (uint32_t)samples[i].x, (uint32_t)samples[i].y);
-    return gn_find_enclosure(rectangle, extents);
+        add_to(extents, samples[i]);
+    return gn_find_rectangle(rectangle, extents);
 }
 
-/* ---- twins ---------------------------------------------------------------------------------------------------------
- */
+/* ---- twins ------------------------------------------------------------------------------------------------------- */
 
 static void set_corners(void)
 {
@@ -161,8 +168,7 @@ static struct smallest smallest_of_the_hull(void)
     return best;
 }
 
-/* ---- what is promised of a rectangle
- * --------------------------------------------------------------------------------- */
+/* ---- what is promised of a rectangle ----------------------------------------------------------------------------- */
 
 struct tally {
     uint64_t sets, angle, bounds, outside; /* sets, and those where something is wrong */
@@ -176,35 +182,35 @@ static exact dot(struct point p, gn_q2_30 x, gn_q2_30 y)
     return (exact)p.x * x + (exact)p.y * y;
 }
 
-/* floor(v / 2^22): from Q2.30 to 1/256. */
-static exact floor_256(exact v)
+/* floor(v / 2^16): from Q2.30 in units to 2^-30 of the side. */
+static exact floor_place(exact v)
 {
-    exact unit = (exact)1 << 22;
+    exact unit = (exact)1 << 16;
     return v < 0 ? -((-v + unit - 1) / unit) : v / unit;
 }
 
-static int bounds_are_exact(const gn_enclosure *r)
+static int bounds_are_exact(const gn_rectangle *r)
 {
     gn_q2_30 axes[2][2] = {{r->cosine, r->sine}, {-r->sine, r->cosine}};
     for (int k = 0; k < 2; k++) {
         exact low = dot(corners[0], axes[k][0], axes[k][1]), high = low;
         for (int i = 1; i < corner_count; i++)
             widen(&low, &high, dot(corners[i], axes[k][0], axes[k][1]));
-        if (r->low[k] != floor_256(low) || r->high[k] != -floor_256(-high))
+        if (r->low[k] != floor_place(low) || (exact)r->low[k] + r->size[k] != -floor_place(-high))
             return 0;
     }
     return 1;
 }
 
 /* Each sample's own unit square. */
-static int contains_every_sample(const gn_enclosure *r)
+static int contains_every_sample(const gn_rectangle *r)
 {
     gn_q2_30 axes[2][2] = {{r->cosine, r->sine}, {-r->sine, r->cosine}};
     for (int i = 0; i < 4 * sample_count; i++) {
         struct point p = {samples[i / 4].x + (i & 1), samples[i / 4].y + (i >> 1 & 1)};
         for (int k = 0; k < 2; k++) {
-            exact place = 256 * dot(p, axes[k][0], axes[k][1]);
-            if (place < (exact)r->low[k] * ONE || place > (exact)r->high[k] * ONE)
+            exact place = dot(p, axes[k][0], axes[k][1]) - (exact)r->low[k] * SIDE;
+            if (place < 0 || place > (exact)r->size[k] * SIDE)
                 return 0;
         }
     }
@@ -220,7 +226,7 @@ static struct point axis_of(struct point direction)
 
 static void check(struct tally *tally, struct smallest (*twin)(void), const char *kind)
 {
-    gn_enclosure r;
+    gn_rectangle r;
     tally->sets++;
     if (!find(&r)) {
         tally->angle++;
@@ -238,8 +244,8 @@ static void check(struct tally *tally, struct smallest (*twin)(void), const char
              cosine, sine);
     tally->error = fmaxl(tally->error, error);
     if (!bounds_are_exact(&r) && tally->bounds++ < 3)
-        note("%s, %d samples: bounds %ld %ld, %ld %ld", kind, sample_count, (long)r.low[0], (long)r.high[0],
-             (long)r.low[1], (long)r.high[1]);
+        note("%s, %d samples: from %ld %ld, %ld by %ld", kind, sample_count, (long)r.low[0], (long)r.low[1],
+             (long)r.size[0], (long)r.size[1]);
     tally->outside += !contains_every_sample(&r);
     tally->left += r.sine > 0;
     tally->straight += r.sine == 0;
@@ -260,8 +266,7 @@ static void report(const struct tally *tally, const char *sets)
         (unsigned long)tally->straight, (unsigned long)tally->shared, tally->error);
 }
 
-/* ---- small sets -----------------------------------------------------------------------------------------------------
- */
+/* ---- small sets -------------------------------------------------------------------------------------------------- */
 
 enum { ANYWHERE, NEAR, LATTICE, LINE, COLUMN, ROW, ENDS, SMALL_KINDS };
 static const char *const small_kinds[SMALL_KINDS] = {"anywhere", "near", "lattice", "line", "column", "row", "ends"};
@@ -314,8 +319,7 @@ static void small_sets(uint64_t cases)
        "small_sets_turn_either_way_by_45_degrees_and_not_at_all_and_some_have_several_smallest_rectangles");
 }
 
-/* ---- large sets -----------------------------------------------------------------------------------------------------
- */
+/* ---- large sets -------------------------------------------------------------------------------------------------- */
 
 enum { CLOUD, CIRCLE, BOX, FULL, NOISY, POLYGON, LARGE_KINDS };
 static const char *const large_kinds[LARGE_KINDS] = {"cloud", "circle", "box", "full", "noisy", "polygon"};
@@ -417,14 +421,13 @@ static void large_sets(uint64_t cases)
     ok(most > 1750, "more_than_1750_corners_fit");
 }
 
-/* ---- order
- * ------------------------------------------------------------------------------------------------------------ */
+/* ---- order ------------------------------------------------------------------------------------------------------- */
 
 static void order_does_not_matter(uint64_t cases)
 {
     uint64_t bad = 0;
     for (uint64_t i = 0; i < cases; i++) {
-        gn_enclosure r = {0}, other = {0};
+        gn_rectangle r = {0}, other = {0};
         if (i % 2)
             large_set(i % 4 == 1 ? CLOUD : BOX);
         else
@@ -441,66 +444,71 @@ static void order_does_not_matter(uint64_t cases)
         for (int worker = 0; worker < workers; worker++) {
             gn_clear_extents(partial);
             for (int k = worker; k < sample_count; k += workers)
-                gn_add_extent(partial, (uint32_t)samples[k].x, (uint32_t)samples[k].y);
+                add_to(partial, samples[k]);
             gn_merge_extents(again, partial);
         }
-        bad += !gn_find_enclosure(&other, again) || memcmp(&r, &other, sizeof r) != 0;
+        bad += !gn_find_rectangle(&other, again) || memcmp(&r, &other, sizeof r) != 0;
     }
     ok(bad == 0, "order_of_samples_and_their_split_among_workers_do_not_matter");
 }
 
-/* ---- by hand
- * ---------------------------------------------------------------------------------------------------------- */
+/* ---- by hand ----------------------------------------------------------------------------------------------------- */
 
-static int is(const gn_enclosure *r, gn_q2_30 cosine, gn_q2_30 sine, const int32_t bounds[4])
+/* Sides in units, which are 2^14 of the rectangle's. */
+static int is_upright(const gn_rectangle *r, int32_t left, int32_t top, int32_t width, int32_t height)
 {
-    int good = r->cosine == cosine && r->sine == sine && r->low[0] == bounds[0] && r->high[0] == bounds[1] &&
-               r->low[1] == bounds[2] && r->high[1] == bounds[3];
+    const int32_t unit = 1 << 14;
+    int good = r->cosine == ONE && r->sine == 0 && r->low[0] == left * unit && r->low[1] == top * unit &&
+               r->size[0] == width * unit && r->size[1] == height * unit;
     if (!good)
-        note("got axis %ld %ld, [%ld, %ld] x [%ld, %ld]", (long)r->cosine, (long)r->sine, (long)r->low[0],
-             (long)r->high[0], (long)r->low[1], (long)r->high[1]);
+        note("got axis %ld %ld, from %ld %ld, %ld by %ld", (long)r->cosine, (long)r->sine, (long)r->low[0],
+             (long)r->low[1], (long)r->size[0], (long)r->size[1]);
     return good;
 }
 
 static void rectangles_made_by_hand(void)
 {
-    gn_enclosure r = {12345, 0, {0, 0}, {0, 0}};
+    gn_rectangle r = {12345, 0, {0, 0}, {0, 0}};
     sample_count = 0;
     ok(find(&r) == 0 && r.cosine == 12345, "no_samples_have_no_rectangle");
 
     add(100, 201);
     find(&r);
-    ok(is(&r, ONE, 0, (const int32_t[4]){96 * 256, 112 * 256, 200 * 256, 202 * 256}), "one_sample_is_its_cell");
+    ok(is_upright(&r, 96, 200, 16, 2), "one_sample_is_its_cell");
 
-    add(65535, 65535);
-    add(0, 65535);
+    add(SIDE, SIDE);
+    add(0, SIDE);
     add(0, 0);
-    add(65535, 0);
+    add(SIDE, 0);
     find(&r);
-    ok(is(&r, ONE, 0, (const int32_t[4]){0, SIDE * 256, 0, SIDE * 256}), "the_full_plane_is_not_turned_and_no_larger");
+    ok(is_upright(&r, 0, 0, SIDE, SIDE), "the_full_plane_is_not_turned_and_no_larger");
 
     sample_count = 0;
-    for (int u = 0; u < SIDE; u += 8)
-        add(u, 5000);
+    for (int x = 0; x < SIDE; x += 8)
+        add(x, 5000);
     find(&r);
-    sample_count = 0;
-    ok(is(&r, ONE, 0, (const int32_t[4]){0, SIDE * 256, 5000 * 256, 5002 * 256}), "one_row");
-    for (int v = 0; v < SIDE; v += 2)
-        add(31, v);
-    find(&r);
-    ok(is(&r, ONE, 0, (const int32_t[4]){16 * 256, 32 * 256, 0, SIDE * 256}), "one_column");
+    ok(is_upright(&r, 0, 5000, SIDE, 2), "one_row");
 
-    /* Along the diagonal the hull is from (0, 0) to (65536, 65522); across, from (16, 0) to (0, 2): 18 by 131058, each
-     * over the root of 2. Upright it would be larger: 65536 by 65522. Times 256 / 2^30 times 759250125, that is
-     * round(2^30 / sqrt(2)): -2896.3, 362.04 and 23724032.1. */
     sample_count = 0;
-    for (int u = 0; u < SIDE; u += 16)
-        add(u, u);
+    for (int y = 0; y < SIDE; y += 2)
+        add(31, y);
     find(&r);
-    ok(is(&r, 759250125, 759250125, (const int32_t[4]){0, 23724033, -2897, 363}), "the_diagonal_is_at_45_degrees");
+    ok(is_upright(&r, 16, 0, 16, SIDE), "one_column");
+
+    /* Along the diagonal the hull is from (0, 0) to (65536, 65522), across from (16, 0) to (0, 2): (131058, -16 to 2)
+     * over the root of 2; upright it would be larger. Times 2^14 / 2^30 times 759250125, that is round(2^30 / sqrt(2)):
+     * 1518338056.7, -185363.8 and 23170.5. */
     sample_count = 0;
-    for (int u = 0; u < SIDE; u += 16)
-        add(SIDE - 16 - u, u);
+    for (int x = 0; x < SIDE; x += 16)
+        add(x, x);
+    find(&r);
+    ok(r.cosine == 759250125 && r.sine == 759250125 && r.low[0] == 0 && r.size[0] == 1518338057 &&
+           r.low[1] == -185364 && r.size[1] == 185364 + 23171,
+       "the_diagonal_is_at_45_degrees");
+
+    sample_count = 0;
+    for (int x = 0; x < SIDE; x += 16)
+        add(SIDE - 16 - x, x);
     find(&r);
     ok(r.cosine == 759250125 && r.sine == 759250125, "the_other_diagonal_is_at_45_degrees_too_not_at_minus_45");
 
@@ -509,7 +517,7 @@ static void rectangles_made_by_hand(void)
     for (int k = 0; k < 1000; k++)
         add(48 * k, 64 * k);
     find(&r);
-    ok(r.cosine == 858993459 && r.sine == -644245094, "a_steep_line_is_turned_clockwise");
+    ok(r.cosine == 858993459 && r.sine == -644245094, "a_steep_line_is_turned_back");
 }
 
 int main(int argc, char **argv)
