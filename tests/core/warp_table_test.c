@@ -462,7 +462,7 @@ static void smoothing_keeps_what_is_even_and_mirrors(void)
 
 /* ---- bent lines ------------------------------------------------------------------------------------------------ */
 
-enum { CELLS = 1 << 18 };
+enum { CELLS = 64 * FINE };
 
 static uint16_t count_of[CELLS], bent[CELLS + 1], expected_of[CELLS];
 static uint32_t sums[2 * FINE + 1];
