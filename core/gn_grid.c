@@ -8,6 +8,7 @@
 #include "gn_chain.h"
 #include "gn_insert.h"
 #include "gn_rectilinear.h"
+#include "gn_warp_table.h"
 
 void gn_find_fine(const gn_grid *grid, int32_t column, int32_t row, int32_t fine[2])
 {
@@ -137,11 +138,27 @@ static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const g
     return l->how->sample(l, points, i, &local);
 }
 
-/* ---- planning ---------------------------------------------------------------------------------------------------- */
+/* ---- tables ------------------------------------------------------------------------------------------------------ */
 
 uint64_t gn_rectilinear_bytes(const gn_settings *settings)
 {
     return 2 * ((uint64_t)settings->map_width + settings->map_height);
+}
+
+uint64_t gn_rectilinear_sums(const gn_settings *s)
+{
+    return 4 * (gn_warp_lines(s) + 2 * (uint64_t)(s->map_width > s->map_height ? s->map_width : s->map_height));
+}
+
+void gn_end_rectilinear(gn_context *context, uint32_t *importance)
+{
+    const gn_settings *s = &context->settings;
+    gn_q16_16 smoothing = s->smoothing ? s->smoothing : 1 << 16;
+    uint32_t *rows = importance + s->map_width, *scratch = rows + s->map_height;
+    gn_smooth_importance(importance, s->map_width, smoothing, scratch);
+    gn_smooth_importance(rows, s->map_height, smoothing, scratch);
+    gn_place_texels(context->fitting->columns, s->map_width, importance, s->map_width);
+    gn_place_texels(context->fitting->rows, s->map_height, rows, s->map_height);
 }
 
 void gn_lay_out_rectilinear(gn_context *context, uint16_t *tables)

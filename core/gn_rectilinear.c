@@ -3,20 +3,10 @@
 #include "gn_rectilinear.h"
 #include "gn_warp_table.h"
 
-static uint64_t words(const gn_settings *s)
-{
-    return (uint64_t)s->map_width + s->map_height;
-}
-
-static uint64_t bytes(const gn_settings *s)
-{
-    return 4 * (words(s) + gn_warp_scratch(s));
-}
-
 static void clear(const gn_settings *s, void *sums)
 {
     uint32_t *count = sums;
-    for (uint32_t i = 0; i < words(s); i++)
+    for (uint32_t i = 0; i < gn_warp_lines(s); i++)
         count[i] = 0;
 }
 
@@ -37,7 +27,7 @@ static void merge(const gn_settings *s, void *sums, const void *other)
 {
     uint32_t *count = sums;
     const uint32_t *more = other;
-    for (uint32_t i = 0; i < words(s); i++)
+    for (uint32_t i = 0; i < gn_warp_lines(s); i++)
         count[i] += more[i];
 }
 
@@ -47,18 +37,8 @@ static void end(gn_context *context, void *sums)
     uint32_t *count = sums;
     gn_importance_of_counts(count, s->map_width);
     gn_importance_of_counts(count + s->map_width, s->map_height);
-    gn_end_rectilinear(context, count, count + words(s));
+    gn_end_rectilinear(context, count);
 }
 
-void gn_end_rectilinear(gn_context *context, uint32_t *importance, uint32_t *scratch)
-{
-    const gn_settings *s = &context->settings;
-    gn_q16_16 smoothing = s->smoothing ? s->smoothing : 1 << 16;
-    gn_smooth_importance(importance, s->map_width, smoothing, scratch);
-    gn_smooth_importance(importance + s->map_width, s->map_height, smoothing, scratch);
-    gn_place_texels(context->fitting->columns, s->map_width, importance, s->map_width);
-    gn_place_texels(context->fitting->rows, s->map_height, importance + s->map_width, s->map_height);
-}
-
-static const gn_round round = {bytes, clear, add, merge, end};
+static const gn_round round = {gn_rectilinear_sums, clear, add, merge, end};
 const gn_warp gn_rectilinear = {&gn_fit_and_warp, gn_rectilinear_bytes, gn_lay_out_rectilinear, &round, 1, 0};

@@ -7,12 +7,16 @@
 uint64_t gn_rectilinear_bytes(const gn_settings *settings);
 void gn_lay_out_rectilinear(gn_context *context, uint16_t *tables);
 
-/* From importances of the columns, then of the rows, to the tables; scratch: gn_warp_scratch words. */
-void gn_end_rectilinear(gn_context *context, uint32_t *importance, uint32_t *scratch);
-
-GN_INLINE uint64_t gn_warp_scratch(const gn_settings *s)
+/* Columns and rows: so many words are summed up. */
+GN_INLINE uint32_t gn_warp_lines(const gn_settings *s)
 {
-    return 2 * (uint64_t)(s->map_width > s->map_height ? s->map_width : s->map_height);
+    return (uint32_t)s->map_width + s->map_height;
 }
+
+/* Bytes of a round's sums, and of what gn_end_rectilinear needs behind them. */
+uint64_t gn_rectilinear_sums(const gn_settings *settings);
+
+/* From importances of the columns, then of the rows, to the tables. */
+void gn_end_rectilinear(gn_context *context, uint32_t *importance);
 
 #endif

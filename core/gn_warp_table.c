@@ -45,16 +45,14 @@ void gn_importance_of_distances(uint32_t *value, uint32_t bins)
 
 /* ---- smoothing ------------------------------------------------------------------------------------------------- */
 
-/* exp(-x^2 / 2) at x = k / 16, times 2^16 - 1; the last only for what lies between it and x = 4. */
-static const uint16_t gaussian[4 * 16 + 2] = {
-    65535, 65407, 65025, 64393, 63519, 62412, 61085, 59554, 57834, 55946, 53908, 51741, 49468, 47111,
-    44691, 42230, 39749, 37268, 34805, 32379, 30004, 27695, 25464, 23322, 21276, 19334, 17501, 15780,
-    14173, 12680, 11300, 10031, 8869,  7812,  6854,  5989,  5214,  4521,  3905,  3360,  2879,  2458,
-    2090,  1770,  1494,  1255,  1051,  876,   728,   602,   496,   408,   333,   272,   220,   178,
-    143,   115,   92,    73,    58,    46,    36,    28,    22,    17,
-};
+/* exp(-x^2 / 2) at x = k / 16, times 2^16 - 1; the last only for what lies between it and x = 3. */
+static const uint16_t gaussian[3 * 16 + 2] = {65535, 65407, 65025, 64393, 63519, 62412, 61085, 59554, 57834, 55946,
+                                              53908, 51741, 49468, 47111, 44691, 42230, 39749, 37268, 34805, 32379,
+                                              30004, 27695, 25464, 23322, 21276, 19334, 17501, 15780, 14173, 12680,
+                                              11300, 10031, 8869,  7812,  6854,  5989,  5214,  4521,  3905,  3360,
+                                              2879,  2458,  2090,  1770,  1494,  1255,  1051,  876,   728,   602};
 
-/* sigma: 16 fraction bits. distance <= 4 sigma. */
+/* sigma: 16 fraction bits. distance <= 3 sigma. */
 static uint32_t weight_at(uint32_t distance, uint32_t sigma)
 {
     uint32_t x = gn_divide((uint64_t)distance << 28, sigma), k = x >> 8; /* sixteenths, 8 fraction bits */
@@ -85,7 +83,8 @@ void gn_smooth_importance(uint32_t *value, uint32_t count, gn_q16_16 smoothing, 
     if (smoothing <= 0)
         return;
     uint64_t wide = gn_multiply_u((uint32_t)smoothing, count) >> 6;
-    uint32_t sigma = wide > UINT32_MAX ? UINT32_MAX : (uint32_t)wide, radius = sigma >> 14;
+    uint32_t sigma = wide > UINT32_MAX ? UINT32_MAX : (uint32_t)wide;
+    uint32_t radius = (uint32_t)(gn_multiply_u(sigma, 3) >> 16);
     if (sigma < 1 << 14)
         return;
     radius = radius < count ? radius : count - 1;

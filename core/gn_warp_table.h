@@ -22,9 +22,9 @@ void gn_importance_of_counts(uint32_t *value, uint32_t bins);
  * of the mean importance, in units of 2^-30, rounded; all 0 where there is no sample at all. bins <= GN_FINE. */
 void gn_importance_of_distances(uint32_t *value, uint32_t bins);
 
-/* Gaussian, sigma = smoothing count / 64 bins but less than 65536, cut beyond 4 sigma; weights are within 2^-11 of the
+/* Gaussian, sigma = smoothing count / 64 bins but less than 65536, cut beyond 3 sigma; weights are within 2^-11 of the
  * largest. What lies beyond the ends takes no part: the weights of the others sum up to 1. Below a quarter of a bin: as
- * it was; else times 2^n as well, so that the largest takes 32 bits. Cost: count * min(8 sigma, count). Memory:
+ * it was; else times 2^n as well, so that the largest takes 32 bits. Cost: count * min(6 sigma, count). Memory:
  * scratch, 2 count. count <= GN_FINE. */
 void gn_smooth_importance(uint32_t *value, uint32_t count, gn_q16_16 smoothing, uint32_t *scratch);
 

@@ -412,7 +412,7 @@ static void smoothing_is_a_gaussian(void)
             uint32_t used = 0, low = UINT32_MAX, high = 0;
             for (uint32_t b = 0; b < count; b++) {
                 real d = (real)b - at, w = expl(-d * d / (2 * sigma * sigma));
-                if (fabsl(d) > 4 * sigma)
+                if (fabsl(d) > 3 * sigma)
                     continue;
                 sum += w * before[b];
                 weights += w;
