@@ -319,7 +319,7 @@ static void write_warp(json *j, const job *of)
     uint32_t(*places)[2] = frame_texel_places(&of->frame);
     warp_report report = warp_report_make(&of->frame.rectangle, &of->packed.light, places, s->map_width, s->map_height);
     free(places);
-    json_open(j, "warp");
+    json_open(j, "light_plane");
     json_number(j, "covered_percent", 100 * report.share);
     json_number(j, "angle_degrees", report.angle);
     write_range(j, "column_magnification", report.columns);

@@ -136,7 +136,8 @@ int file_output_name(file_output *output, const char *path, problem *why)
     output->path = memory_take(length + 1, 1);
     memcpy(output->path, path, length);
     output->temporary = memory_take(room, 1);
-    if (exists && !S_ISREG(status.st_mode))
+    /* to a file a link may lead as well, and a rename would take the link's place */
+    if (exists && lstat(path, &status) == 0 && !S_ISREG(status.st_mode))
         memcpy(output->temporary, path, length);
     else /* the extension stays last: image libraries go by it */
         snprintf(output->temporary, room, "%.*s.%ld-%s", (int)folder, path, (long)getpid(), path + folder);

@@ -1,6 +1,6 @@
 /* Whole files in, whole files out. Output goes to a temporary name in the same folder and is renamed when it is
  * complete, so that a failed run leaves no half-written file and an older one stays as it was. What is there already
- * and is no regular file (/dev/stdout, a pipe) is written directly. */
+ * and is no regular file (a pipe, or a link as /dev/stdout is one) is written directly. */
 #ifndef FILE_H
 #define FILE_H
 
