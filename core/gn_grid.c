@@ -7,7 +7,7 @@
  * Cost on a Cortex-M4: docs/performance.md. Memory: two bytes a column and a row. */
 #include "gn_chain.h"
 #include "gn_insert.h"
-#include "gn_rectilinear.h"
+#include "gn_warps.h"
 #include "gn_warp_table.h"
 
 void gn_find_fine(const gn_grid *grid, int32_t column, int32_t row, int32_t fine[2])

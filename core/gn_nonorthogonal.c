@@ -8,8 +8,8 @@
  * Sums: two bytes a texel, of a column's or band's share of the view, held at 65535. Memory: four bytes a texel. */
 #include "gn_chain.h"
 #include "gn_insert.h"
-#include "gn_parameterisation.h"
 #include "gn_warp_table.h"
+#include "gn_warps.h"
 
 /* ---- light pass -------------------------------------------------------------------------------------------------- */
 
@@ -85,8 +85,7 @@ static void aim(gn_layer_target *t, gn_window *window)
 
 /* ---- camera pass ------------------------------------------------------------------------------------------------- */
 
-/* The column of texels of a place, and *u: where it is between the columns. */
-static uint32_t find_column(const gn_grid *grid, uint32_t *u, uint32_t v, uint32_t bits, int32_t *hint)
+uint32_t gn_find_bent_column(const gn_grid *grid, uint32_t *u, uint32_t v, uint32_t bits, int32_t *hint)
 {
     const uint16_t *across = grid->across + gn_band(grid, (int32_t)gn_texel(v, GN_FINE - 1, bits)) * grid->width;
     *u = gn_find_grid_place(across, grid->width, *u, bits, hint);
@@ -100,7 +99,7 @@ static void place(const gn_lookup *l, gn_points *points)
     for (int32_t i = 0; i < points->count; i++) {
         if (points->u[i] == GN_NOWHERE)
             continue;
-        uint32_t column = find_column(grid, &points->u[i], points->v[i], l->bits, &column_hint);
+        uint32_t column = gn_find_bent_column(grid, &points->u[i], points->v[i], l->bits, &column_hint);
         points->v[i] = gn_find_grid_place(grid->down + column * (uint32_t)grid->height, grid->height, points->v[i],
                                           l->bits, &row_hint);
     }
@@ -124,7 +123,7 @@ static uint64_t texels(const gn_settings *s)
     return (uint64_t)s->map_width * s->map_height;
 }
 
-static uint64_t table_bytes(const gn_settings *s)
+uint64_t gn_nonorthogonal_bytes(const gn_settings *s)
 {
     return 4 * texels(s);
 }
@@ -180,7 +179,7 @@ static void add_down(const gn_context *context, void *sums, const gn_points *poi
         uint32_t u = points->u[i];
         if (u == GN_NOWHERE)
             continue;
-        uint32_t column = find_column(context->grid, &u, points->v[i], bits, &hint);
+        uint32_t column = gn_find_bent_column(context->grid, &u, points->v[i], bits, &hint);
         count_one(&count[column * height + gn_bin(gn_share(points->v[i], bits), height)]);
     }
 }
@@ -210,7 +209,7 @@ static void end_down(gn_context *context, void *sums)
                   scratch_of(s, sums));
 }
 
-static void lay_out(gn_context *context, uint16_t *tables)
+void gn_lay_out_nonorthogonal(gn_context *context, uint16_t *tables)
 {
     gn_fitting *fitting = context->fitting;
     fitting->columns = tables;
@@ -224,6 +223,7 @@ static void lay_out(gn_context *context, uint16_t *tables)
     context->grid = &fitting->grid;
 }
 
-static const gn_round rounds[2] = {{bytes, clear, add_across, merge, end_across},
-                                   {bytes, clear, add_down, merge, end_down}};
-const gn_warp gn_nonorthogonal = {&gn_fit_and_warp, table_bytes, lay_out, rounds, 2, 1};
+const gn_round gn_rounds_of_bands[2] = {{bytes, clear, add_across, merge, end_across},
+                                        {bytes, clear, add_down, merge, end_down}};
+const gn_warp gn_nonorthogonal = {
+    &gn_fit_and_warp, gn_nonorthogonal_bytes, gn_lay_out_nonorthogonal, gn_rounds_of_bands, 2, 1};

@@ -1,7 +1,7 @@
 /* The rectilinear warp that is driven by how many samples of the view a column and a row of texels has: texels go where
  * the pixels are. Sums: four bytes a column and a row. */
-#include "gn_rectilinear.h"
 #include "gn_warp_table.h"
+#include "gn_warps.h"
 
 static void clear(const gn_settings *s, void *sums)
 {
@@ -40,5 +40,6 @@ static void end(gn_context *context, void *sums)
     gn_end_rectilinear(context, count);
 }
 
-static const gn_round round = {gn_rectilinear_sums, clear, add, merge, end};
-const gn_warp gn_rectilinear = {&gn_fit_and_warp, gn_rectilinear_bytes, gn_lay_out_rectilinear, &round, 1, 0};
+const gn_round gn_round_of_counts = {gn_rectilinear_sums, clear, add, merge, end};
+const gn_warp gn_rectilinear = {
+    &gn_fit_and_warp, gn_rectilinear_bytes, gn_lay_out_rectilinear, &gn_round_of_counts, 1, 0};
