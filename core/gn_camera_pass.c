@@ -7,7 +7,7 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
         return GN_BAD_ARGUMENT;
     if (context->volumes)
         return GN_UNSUPPORTED;
-    if (context->phase == GN_PHASE_NONE)
+    if (context->phase < GN_PHASE_LIGHT)
         return GN_NOT_READY;
     for (uint32_t i = 0; i < context->plan.light_regions; i++)
         if (context->progress[i] != GN_REGION_DONE)

@@ -23,7 +23,7 @@ static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction 
                    context->settings.map_width - 1u,
                    context->settings.map_height - 1u,
                    gn_point_bits(context),
-                   context->light.kind != GN_SPOT && context->shading.trusted == GN_WELL_INSIDE,
+                   context->light.kind != GN_SPOT && !context->grid && context->shading.trusted == GN_WELL_INSIDE,
                    how->whole,
                    context->drawn ? context->drawn->map : 0,
                    context->grid ? context->grid->columns : 0,

@@ -4,10 +4,8 @@
  * every point has texels about it. */
 #include "gn_parameterisation.h"
 
-#define ONE (1 << 30)
-
 /* The least side of a rectangle: beyond, more texels tell nothing that vertices, snapped to integers, know. */
-#define LEAST_SIDE (ONE >> 10)
+#define LEAST_SIDE (GN_WHOLE >> 10)
 
 /* ---- planes ------------------------------------------------------------------------------------------------------ */
 
@@ -18,7 +16,7 @@ static int32_t larger_side(const gn_light *light)
 
 void gn_whole_plane(gn_rectangle *r, const gn_light *light)
 {
-    gn_rectangle whole = {ONE, 0, {0, 0}, {ONE, ONE}};
+    gn_rectangle whole = {GN_WHOLE, 0, {0, 0}, {GN_WHOLE, GN_WHOLE}};
     *r = whole;
     if (light->kind == GN_SPOT)
         return;
@@ -53,8 +51,8 @@ static void fit_box(gn_light *light, const gn_rectangle *r)
     int64_t end_u = u + gn_multiply(r->size[0], side), end_v = v - gn_multiply(r->size[1], side);
     light->box_u = (int32_t)gn_floor_shift_64(u, 30);
     light->box_v = (int32_t)gn_floor_shift_64(end_v, 30);
-    light->box_width = (int32_t)gn_floor_shift_64(end_u + ONE - 1, 30) - light->box_u;
-    light->box_height = (int32_t)gn_floor_shift_64(v + ONE - 1, 30) - light->box_v;
+    light->box_width = (int32_t)gn_floor_shift_64(end_u + GN_WHOLE - 1, 30) - light->box_u;
+    light->box_height = (int32_t)gn_floor_shift_64(v + GN_WHOLE - 1, 30) - light->box_v;
     light->box_width = light->box_width < 64 ? 64 : light->box_width;
     light->box_height = light->box_height < 64 ? 64 : light->box_height;
 }
@@ -110,7 +108,7 @@ gn_status gn_make_fitted_view(gn_view *view, gn_light *light, const gn_rectangle
         fit_box(light, r);
         return gn_make_light_view(view, light, width, height);
     }
-    if (r->sine != 0 || r->low[0] != 0 || r->low[1] != 0 || r->size[0] != ONE || r->size[1] != ONE) {
+    if (r->sine != 0 || r->low[0] != 0 || r->low[1] != 0 || r->size[0] != GN_WHOLE || r->size[1] != GN_WHOLE) {
         gn_status status = fit_frustum(&fitted, r);
         if (status != GN_OK)
             return status;
@@ -127,7 +125,7 @@ int gn_find_place_on_plane(const gn_fitting *fitting, uint32_t *left, uint32_t *
     int32_t y = r->low[1] + (int32_t)gn_floor_shift_64(gn_multiply((int32_t)*top, r->size[1]), 30);
     *left = (uint32_t)turned(x, y, r->cosine, -r->sine);
     *top = (uint32_t)turned(y, x, r->cosine, r->sine);
-    return *left < ONE && *top < ONE;
+    return *left < GN_WHOLE && *top < GN_WHOLE;
 }
 
 /* ---- bounds ------------------------------------------------------------------------------------------------------ */
@@ -170,7 +168,7 @@ static uint64_t bounds_bytes(const gn_settings *settings)
 
 static void clear_bounds(const gn_settings *settings, void *sums)
 {
-    bounds none = {{ONE, ONE}, {0, 0}};
+    bounds none = {{GN_WHOLE, GN_WHOLE}, {0, 0}};
     (void)settings;
     *(bounds *)sums = none;
 }
@@ -206,7 +204,7 @@ static void merge_bounds(const gn_settings *settings, void *sums, const void *ot
 static void end_bounds(gn_context *context, void *sums)
 {
     const bounds *b = sums;
-    gn_rectangle r = {ONE, 0, {0, 0}, {0, 0}};
+    gn_rectangle r = {GN_WHOLE, 0, {0, 0}, {0, 0}};
     if (b->low[0] > b->high[0]) { /* nothing is seen */
         gn_whole_plane(&context->fitting->rectangle, &context->fitting->light);
         return;

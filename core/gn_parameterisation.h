@@ -9,6 +9,8 @@
 
 #include "gn_cascade.h"
 
+#define GN_WHOLE ((int32_t)1 << 30) /* a side */
+
 typedef struct gn_parameterisation gn_parameterisation;
 
 /* The hooks of what has a fit or a warp, one set for all. */
@@ -59,6 +61,7 @@ struct gn_fitting {
     /* of the view pass: */
     gn_light light;
     int32_t largest_w; /* of all vertices in the camera's view */
+    uint32_t reach[2]; /* what lies at or beyond these places is not on the light's plane; 2^-30 of the view's sides */
 };
 
 /* Of settings with a shadow map; 0: neither fit nor warp. */

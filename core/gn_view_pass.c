@@ -165,8 +165,11 @@ gn_status gn_view_begin(gn_context *context, const gn_camera *camera, const gn_l
     if (status != GN_OK)
         return status;
     gn_whole_plane(&fitting->rectangle, light);
-    if (context->settings.fit) /* places count in one unit along both axes */
-        fitting->rectangle.size[0] = fitting->rectangle.size[1] = 1 << 30;
+    for (int i = 0; i < 2; i++) {
+        fitting->reach[i] = context->settings.fit ? (uint32_t)fitting->rectangle.size[i] : GN_WHOLE;
+        if (context->settings.fit) /* places count in one unit along both axes */
+            fitting->rectangle.size[i] = GN_WHOLE;
+    }
     status = begin_round(context);
     if (status == GN_OK)
         context->phase = GN_PHASE_VIEW;
@@ -177,7 +180,8 @@ static void gather_row(const gn_context *context, gn_worker *worker, void *sums,
                        int32_t count)
 {
     const gn_round *round = find_round(context);
-    uint32_t *q = worker->q + from, w[GN_BLOCK];
+    uint32_t *q = worker->q + from, w[GN_BLOCK], bits = gn_point_bits(context);
+    const uint32_t *reach = context->fitting->reach;
     gn_points points;
     if (!context->camera_view.affine)
         gn_row_of_w(q, count, context->shading.w_shift);
@@ -192,7 +196,8 @@ static void gather_row(const gn_context *context, gn_worker *worker, void *sums,
             w[i] = q[i];
         gn_find_points(context, &points, q);
         for (int32_t i = 0; i < points.count; i++)
-            if (points.triangle[i] == GN_NO_TRIANGLE)
+            if (points.triangle[i] == GN_NO_TRIANGLE || gn_share(points.u[i], bits) >= reach[0] ||
+                gn_share(points.v[i], bits) >= reach[1])
                 points.u[i] = GN_NOWHERE;
         round->add(context, sums, &points, w);
     }
@@ -237,6 +242,7 @@ gn_status gn_view_end(gn_context *context)
     round->end(context, sums_of(fitting, 0));
     context->phase = GN_PHASE_NONE;
     fitting->round++;
+    fitting->reach[0] = fitting->reach[1] = GN_WHOLE;
     if (fitting->round == context->plan.view_rounds) {
         fitting->seen = 1;
         return GN_OK;
