@@ -288,9 +288,9 @@ extern const gn_reconstruction gn_silhouettes, gn_silhouettes_smooth;
  * light pass and somewhat less exact borders. docs/shadow-test.md. */
 extern const gn_reconstruction gn_crossings;
 
-/* Point lights: six square maps, one a face of a cube about the light, each a texel or more wider than its face, so that
- * filters and silhouettes go across the cube's edges. None (0): directional and spot lights only. Linked only where
- * named. docs/point-lights.md. */
+/* Point lights: six maps, one a face of a cube about the light, each wider than its face by a texel or more, so that
+ * filters and silhouettes go on across the cube's edges. None (0): directional and spot lights only. Linked only
+ * where named. docs/point-lights.md. */
 typedef struct gn_faces gn_faces;
 extern const gn_faces gn_six_faces; /* six maps in memory, that stay for any number of camera passes */
 extern const gn_faces gn_one_face;  /* one at a time: gn_point_pass alone. A bit, with filters a byte a pixel more */
@@ -330,9 +330,9 @@ typedef struct gn_settings {
     const gn_fit *fit;                       /* 0: the light's own box or frustum. The same */
     const gn_warp *warp;                     /* 0: texels of one size. The same */
     gn_q16_16 smoothing;                     /* of warps: times the usual window; 1/64 to 64, 0: 1 */
-    uint8_t fit_depth; /* 1: with a fit of directional lights, stored depths span what the camera sees; what is
-                        * nearer to the light is taken to be at the near end. More depth resolution */
-    const gn_faces *faces;                   /* for point lights, else 0. Says nothing with volumes */
+    uint8_t fit_depth;     /* 1: with a fit of directional lights, stored depths span what the camera sees; what is
+                            * nearer to the light is taken to be at the near end. More depth resolution */
+    const gn_faces *faces; /* for point lights, else 0. Says nothing with volumes */
 } gn_settings;
 
 /* Second depth, the point, the nearest texel, everything else left to gn_make_plan and no bias: the least that a scene
@@ -401,7 +401,8 @@ int gn_texel_place(const gn_context *context, uint32_t column, uint32_t row, uin
 
 /* Render the shadow map. It stays valid for any number of camera passes.
  * GN_OUT_OF_RANGE: the light or a model is outside its ranges, a vertex beyond GN_WORLD_MAX, or the scene more than
- * 8192 times as deep as the light's box. GN_NOT_READY: a fit or a warp, and no view pass. */
+ * 8192 times as deep as the light's box. GN_UNSUPPORTED: a point light.
+ * GN_NOT_READY: a fit or a warp, and no view pass. */
 gn_status gn_light_pass(gn_context *context, const gn_light *light);
 
 /* The same in steps: begin; then for every region in any order, on any worker (0 .. workers-1, each used by one thread
@@ -477,8 +478,9 @@ gn_status gn_point_pass(gn_context *context, const gn_light *light, const gn_cam
 
 /* In place of the light pass: decide exactly which way every triangle faces, and find the silhouette edges. To be done
  * anew whenever a model has changed; none may change before the last region of a frame is done. GN_UNSUPPORTED: the
- * context was not made for volumes (and the light and camera passes, where it was); GN_BAD_MESH: edges that do not
- * exist, join nothing, or are too few or too many; GN_BAD_ARGUMENT, GN_OUT_OF_RANGE: as for gn_light_pass. */
+ * context was not made for volumes (and the light and camera passes, where it was), or a point light; GN_BAD_MESH:
+ * edges that do not exist, join nothing, or are too few or too many; GN_BAD_ARGUMENT, GN_OUT_OF_RANGE: as for
+ * gn_light_pass. */
 gn_status gn_volumes_light(gn_context *context, const gn_light *light);
 
 /* In place of the camera pass and its steps; same arguments and statuses. A pixel is shadowed where the volumes that
