@@ -37,8 +37,8 @@ GN_INLINE uint32_t gn_look(const gn_lookup *l, uint32_t u, uint32_t v, uint32_t 
     return gn_agree(above, above + l->stride, z);
 }
 
-/* The votes of these four. */
-gn_vote gn_vote_around;
+/* The votes of these four; and of the one that holds a point. */
+gn_vote gn_vote_around, gn_vote_nearest;
 
 /* Settles open points: each is sampled with its own depth. */
 void gn_settle(const gn_reconstruction *how, const gn_lookup *lookup, gn_points *points);

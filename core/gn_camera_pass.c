@@ -7,6 +7,8 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera)
         return GN_BAD_ARGUMENT;
     if (context->volumes)
         return GN_UNSUPPORTED;
+    if (context->point_light)
+        return context->settings.faces->camera_begin(context, camera);
     if (context->phase < GN_PHASE_LIGHT)
         return GN_NOT_READY;
     for (uint32_t i = 0; i < context->plan.light_regions; i++)

@@ -21,7 +21,7 @@ static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction 
     gn_lookup l = {context->map,
                    context->map_stride,
                    context->settings.map_width - 1u,
-                   context->settings.map_height - 1u,
+                   context->settings.map_height * (context->point_light ? gn_map_count(&context->settings) : 1) - 1u,
                    gn_point_bits(context),
                    context->light.kind != GN_SPOT && !context->grid && context->shading.trusted == GN_WELL_INSIDE,
                    how->whole,
@@ -67,6 +67,8 @@ static void count_stages(const gn_context *context, gn_worker *worker, const gn_
     for (int32_t i = 0; i < points->count; i++) {
         if (points->triangle[i] == GN_NO_TRIANGLE || !gn_find_pair(context, worker, points->triangle[i])->faces_light)
             continue;
+        if (context->point_light && points->u[i] == GN_NOWHERE && points->z[i] == 0)
+            continue; /* on a face whose turn it is not */
         int outside = points->u[i] == GN_NOWHERE, resampled = points->resampled[i];
         int reconstructed = points->reconstructed[i],
             fractional = how->whole != GN_DARK && points->dark[i] > 0 && points->dark[i] < how->whole;
@@ -89,7 +91,7 @@ static gn_vote_at_once *find_short_cut(const gn_context *context)
     if (!receiver->nearest || find_reconstruction(context)->vote != receiver->nearest->vote || context->fitting)
         return 0;
     if (context->light.kind == GN_SPOT)
-        return receiver->spotlit;
+        return context->point_light ? 0 : receiver->spotlit;
     int needs_no_test = !context->camera_view.affine && s->trusted == GN_WELL_INSIDE && s->position_bits >= 8;
     return needs_no_test ? receiver->sunlit : 0;
 }

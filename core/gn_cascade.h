@@ -86,6 +86,7 @@ typedef struct gn_receiver_plane {
     gn_wide_plane plane;
     int64_t slack; /* how much nearer its neighbour in one flat wall may be stored, units of z */
     uint32_t triangle;
+    uint8_t face;        /* of a point light, else 0 */
     uint8_t exists;      /* 0: the light sees the triangle edge-on, or not at all */
     uint8_t faces_light; /* camera and light are on the same side: else it is shadowed whatever the map says */
 } gn_receiver_plane;
@@ -99,8 +100,9 @@ GN_INLINE void gn_end_block(gn_points *points)
     }
 }
 
-/* Half a texel of a spot light's u and v. */
+/* Half a texel of a spot light's u and v; fraction bits of a point light's, whose six maps lie below each other. */
 #define GN_SPOT_HALF ((uint32_t)1 << 17)
+#define GN_FACE_BITS 16
 
 /* What a vote found of point i. */
 GN_INLINE void gn_vote_is(gn_points *points, int32_t i, uint32_t dark, uint32_t whole)
@@ -153,8 +155,10 @@ void gn_start_points(const gn_context *context, gn_points *points);
 void gn_find_points(const gn_context *context, gn_points *points, uint32_t *q);
 uint32_t gn_point_bits(const gn_context *context);
 
-/* gn_receiver_plane.c: the plane of the triangle that a pixel sees, from the worker's cache. */
-const gn_receiver_plane *gn_find_plane(const gn_context *context, gn_worker *worker, uint32_t triangle);
+/* gn_receiver_plane.c: the plane of the triangle that a pixel sees, from the worker's cache; the face of a point
+ * light that point i, which lies on the map, is on. */
+const gn_receiver_plane *gn_find_plane(const gn_context *context, gn_worker *worker, uint32_t triangle, uint32_t face);
+uint32_t gn_face_of(const gn_context *context, const gn_points *points, int32_t i);
 
 /* gn_fraction.c: as gn_colour_row, with the worker's fractions. */
 gn_colour_shader gn_colour_fractions;

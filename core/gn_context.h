@@ -14,6 +14,7 @@
 typedef struct gn_drawing gn_drawing;
 typedef struct gn_drawn gn_drawn;
 typedef struct gn_fitting gn_fitting;
+struct gn_points;
 
 /* Colour pairs of triangles in view, kept per worker: a direct-mapped cache, a power of two. Trades RAM (24 bytes an
  * entry) against time; never changes a pixel. */
@@ -40,13 +41,13 @@ typedef struct gn_linear {
 
 /* From (x, y, Q) to light space. */
 typedef struct gn_shading {
-    gn_linear coordinate[3]; /* directional: u, v, depth; spot: (X + W) / 2, (Y + W) / 2, W */
+    gn_linear coordinate[3]; /* directional: u, v, depth; spot: (X + W) / 2, (Y + W) / 2, W; point: x, y, z */
     uint32_t nothing;        /* Q where there is no surface */
     uint8_t w_shift;         /* W = 2^(61 - w_shift) / Q */
     uint8_t position_bits;   /* fraction bits of u and v in texels */
     uint8_t depth_bits;      /* fraction bits of depth in units of 1/65536 */
     uint8_t trusted; /* gn_inside: whether every point of the scene lies inside the light's box: no test needed */
-    uint32_t near_w, far_w; /* spot: in the unit of coordinate[2] */
+    uint32_t near_w, far_w; /* spot, point: in the unit of coordinate[2] */
 } gn_shading;
 
 typedef enum gn_phase {
@@ -91,11 +92,13 @@ struct gn_context {
     uint32_t triangle_bits;     /* identifier = object << triangle_bits | triangle */
     struct gn_volumes *volumes; /* 0 with shadow maps */
     gn_drawn *drawn;            /* gn_drawing.h; 0 without */
+    struct gn_point *point;     /* gn_point_light.h; 0 without settings.faces */
     gn_fitting *fitting;        /* gn_parameterisation.h; 0 without a fit and a warp */
     const gn_grid *grid;        /* where the texels of a warped map lie; 0: evenly */
 
     gn_light light;
     gn_view light_view;
+    uint8_t point_light;                 /* 1: light and light_view are those of a face of one */
     uint32_t bias;                       /* in units of a 32-bit depth */
     uint8_t light_trusted;               /* gn_inside */
     uint8_t phase;                       /* gn_phase: whose turn it is to use the shared part */
@@ -124,6 +127,16 @@ GN_INLINE void gn_triangle_indices(const gn_mesh *mesh, uint32_t triangle, uint3
         index[0] = i[0], index[1] = i[1], index[2] = i[2];
     }
 }
+
+/* What settings.faces brings (gn_point_light.c). */
+struct gn_faces {
+    uint8_t count; /* maps in memory */
+    /* Take what stays between the passes, as gn_drawing's hooks do. */
+    uint64_t (*lay_out)(gn_context *context, uint64_t used, const gn_plan *plan, const gn_settings *settings);
+    /* gn_camera_begin and gn_find_points of a point light */
+    gn_status (*camera_begin)(gn_context *context, const gn_camera *camera);
+    void (*find_points)(const gn_context *context, struct gn_points *points, uint32_t *q);
+};
 
 /* World position of a vertex. GN_OUT_OF_RANGE beyond GN_WORLD_MAX. */
 gn_status gn_world_position(const gn_object *object, uint32_t vertex, int32_t world[3]);
@@ -156,6 +169,12 @@ gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *
 
 /* The places of a triangle's corners, for clipping. */
 void gn_triangle_places(const gn_view *view, const gn_object *object, const uint32_t index[3], gn_place corner[3]);
+
+/* Maps in memory: a point light may have six, one below the other. */
+GN_INLINE uint32_t gn_map_count(const gn_settings *settings)
+{
+    return settings->faces ? settings->faces->count : 1;
+}
 
 /* Whether the light pass keeps two depths a texel: two layers, or the accumulator of slopes beside the first. */
 GN_INLINE int gn_has_second(const gn_plan *plan, const gn_settings *settings)

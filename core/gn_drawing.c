@@ -23,7 +23,7 @@ gn_status gn_check_drawing(const gn_scene *scene)
 uint64_t gn_lay_out_drawn(gn_context *context, uint64_t used, const gn_settings *settings)
 {
     uint8_t *base = (uint8_t *)context;
-    uint64_t bytes = (uint64_t)settings->map_width * settings->map_height;
+    uint64_t bytes = (uint64_t)settings->map_width * settings->map_height * gn_map_count(settings);
     gn_drawn *drawn = gn_take(base, &used, sizeof *drawn);
     uint8_t *map = gn_take(base, &used, bytes);
     if (context) {

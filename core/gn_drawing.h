@@ -28,6 +28,7 @@ struct gn_drawing {
     gn_status (*begin)(gn_context *context);
     /* when the layers of a region are drawn, before they are resolved */
     void (*draw)(gn_context *context, uint32_t region, uint32_t worker);
+    uint8_t empty; /* what a texel holds where nothing is drawn */
 };
 
 /* What the context keeps for it. */

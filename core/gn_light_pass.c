@@ -415,6 +415,7 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
     if (context->volumes)
         return GN_UNSUPPORTED;
     context->phase = GN_PHASE_NONE;
+    context->point_light = 0;
     gn_lay_out_light(context, &context->plan, &context->settings);
     context->light = *light;
     context->texels_across = (uint32_t)context->settings.map_width << 8;

@@ -213,6 +213,22 @@ gn_status gn_spot_light(gn_light *light, const int32_t position[3], const int32_
     return GN_OK;
 }
 
+gn_status gn_point_light(gn_light *light, const int32_t position[3], int32_t near_depth, int32_t far_depth)
+{
+    static const struct axes none;
+    if (!light || !position)
+        return GN_BAD_ARGUMENT;
+    if (!within(position, GN_EYE_MAX) || !depths_are_good(near_depth, far_depth, 1))
+        return GN_OUT_OF_RANGE;
+    int32_t place[3]; /* position may point into *light */
+    copy_vector(place, position);
+    begin_light(light, GN_POINT, &none);
+    copy_vector(light->position, place);
+    light->near_depth = near_depth;
+    light->far_depth = far_depth;
+    return GN_OK;
+}
+
 void gn_model_identity(gn_model *model)
 {
     if (!model)

@@ -208,8 +208,7 @@ static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const g
     const gn_parameterisation *parameterisation = gn_find_parameterisation(settings);
     if (parameterisation)
         used = parameterisation->lay_out_head(context, used, settings);
-    gn_depth *map =
-        gn_take(base, &used, volumes ? 0 : (uint64_t)map_stride(settings) * settings->map_height * sizeof *map);
+    gn_depth *map = gn_take(base, &used, plan->map_bytes);
     if (context) {
         context->objects = objects;
         context->workers = workers;
@@ -222,6 +221,8 @@ static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const g
     const gn_drawing *drawing = gn_find_drawing(settings);
     if (drawing)
         used = drawing->lay_out_head(context, used, settings);
+    if (settings->faces)
+        used = settings->faces->lay_out(context, used, plan, settings);
     if (volumes)
         used += lay_out_volumes(context, used, plan, settings);
     if (context)
@@ -315,17 +316,17 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
     p.map_rows = (uint16_t)rows;
     p.light_regions = (settings->map_height + rows - 1) / rows;
     p.camera_regions = (settings->width + width - 1) / width * ((settings->height + height - 1) / height);
+    size_t all_rows = (size_t)settings->map_height * gn_map_count(settings);
+    p.map_bytes = map_stride(settings) * all_rows * sizeof(gn_depth);
     if (settings->shadow == GN_SHADOW_VOLUMES)
-        p.light_regions = 0;
+        p.map_bytes = p.light_regions = 0;
     uint64_t head = lay_out_head(0, scene, settings, &p), light = head, camera = head;
     light += settings->shadow == GN_SHADOW_VOLUMES ? 0 : gn_lay_out_light(0, &p, settings);
     camera += gn_lay_out_camera(0, &p, settings);
     if (light > SIZE_MAX || camera > SIZE_MAX)
         return GN_TOO_MANY;
-    if (settings->shadow == GN_SHADOW_MAP)
-        p.map_bytes = (size_t)map_stride(settings) * settings->map_height * sizeof(gn_depth);
     if (drawing)
-        p.silhouette_bytes = (size_t)settings->map_width * settings->map_height;
+        p.silhouette_bytes = settings->map_width * all_rows;
     p.light_bytes = (size_t)light;
     p.camera_bytes = (size_t)camera;
     p.bytes = p.light_bytes > p.camera_bytes ? p.light_bytes : p.camera_bytes;
@@ -401,6 +402,8 @@ void gn_get_statistics(const gn_context *context, gn_statistics *statistics)
         sum.pixels_silhouette += s->pixels_silhouette;
         sum.silhouette_texels += s->silhouette_texels;
         sum.volume_faces += s->volume_faces;
+        sum.faces_drawn += s->faces_drawn;
+        sum.faces_skipped += s->faces_skipped;
         sum.volume_fragments += s->volume_fragments;
     }
     sum.silhouette_edges = context->volumes ? context->volumes->silhouette_count : 0;

@@ -2,7 +2,7 @@
  * its own plane rises within half a texel of it, h = (|dz/du| + |dz/dv|) / 2. A rival of virtual samples that needs
  * the same plane at every pixel, and a factor that somebody chooses: 1 for the nearest texel, more for wider filters.
  * On a warped map the texel is as large as its neighbours lie apart, in the mean of both sides. */
-#include "gn_cascade.h"
+#include "gn_around.h"
 
 /* slope rise in units of z. */
 static uint32_t bias_of(int64_t rise, uint32_t slope)
@@ -32,13 +32,15 @@ static int64_t rise_on_grid(const gn_context *context, const gn_wide_plane *plan
 
 static void move_nearer(const gn_context *context, gn_worker *worker, gn_points *points)
 {
-    uint32_t last = GN_NO_TRIANGLE, bias = 0;
+    uint32_t last = GN_NO_TRIANGLE, last_face = 0, bias = 0;
     for (int32_t i = 0; i < points->count; i++) {
         if (points->triangle[i] == GN_NO_TRIANGLE || points->u[i] == GN_NOWHERE)
             continue;
-        if (points->triangle[i] != last || context->grid) {
+        uint32_t face = gn_face_of(context, points, i);
+        if (points->triangle[i] != last || face != last_face || context->grid) {
             last = points->triangle[i];
-            const gn_wide_plane *plane = &gn_find_plane(context, worker, last)->plane;
+            last_face = face;
+            const gn_wide_plane *plane = &gn_find_plane(context, worker, last, face)->plane;
             int64_t rise = context->grid ? rise_on_grid(context, plane, points->u[i], points->v[i])
                                          : gn_rise(plane->dx, plane->dy);
             bias = bias_of(rise, (uint32_t)context->settings.slope);
@@ -47,17 +49,5 @@ static void move_nearer(const gn_context *context, gn_worker *worker, gn_points 
     }
 }
 
-static void vote_nearest(const gn_lookup *l, gn_points *points)
-{
-    for (int32_t i = 0; i < points->count; i++) {
-        uint32_t column = gn_texel(points->u[i], l->last_column, l->bits);
-        uint32_t row = gn_texel(points->v[i], l->last_row, l->bits);
-        if (points->u[i] == GN_NOWHERE)
-            points->dark[i] = gn_dark_nowhere(l, points->z[i]);
-        else
-            points->dark[i] = gn_cut(points->z[i]) <= l->map[row * l->stride + column] ? 0 : GN_DARK;
-    }
-}
-
-static const gn_reconstruction nearest = {gn_cascade_row, vote_nearest, 0, 0, GN_DARK, 1, 0, 0, 0};
+static const gn_reconstruction nearest = {gn_cascade_row, gn_vote_nearest, 0, 0, GN_DARK, 1, 0, 0, 0};
 const gn_receiver gn_plane_bias = {gn_cascade_row, move_nearer, 0, 0, 0, &nearest, 1};

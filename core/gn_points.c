@@ -9,7 +9,7 @@
 uint32_t gn_point_bits(const gn_context *context)
 {
     if (context->light.kind == GN_SPOT)
-        return 18;
+        return context->point_light ? GN_FACE_BITS : 18;
     return context->shading.position_bits < 8 ? 8 : context->shading.position_bits;
 }
 
@@ -115,7 +115,9 @@ void gn_start_points(const gn_context *context, gn_points *points)
 
 void gn_find_points(const gn_context *context, gn_points *points, uint32_t *q)
 {
-    if (context->light.kind == GN_SPOT)
+    if (context->point_light)
+        context->settings.faces->find_points(context, points, q);
+    else if (context->light.kind == GN_SPOT)
         find_spot(context, points, q);
     else
         find_directional(context, points, q);

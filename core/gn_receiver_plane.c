@@ -11,6 +11,7 @@
  * Cost: on a Cortex-M4 about 1,400 instructions a plane. Memory: 40 bytes an entry. */
 #include "gn_cascade.h"
 #include "gn_clip.h"
+#include "gn_point_light.h"
 
 /* Of a plane by its own rounding, units of z (docs/number-formats.md). */
 #define GN_PLANE_ERROR 0x8000
@@ -58,16 +59,17 @@ static int place_corners(gn_place corner[3], const gn_view *view, int32_t world[
     return 1;
 }
 
-static GN_NOINLINE void make_plane(const gn_context *context, gn_receiver_plane *out, uint32_t triangle)
+static GN_NOINLINE void make_plane(const gn_context *context, gn_receiver_plane *out, uint32_t triangle, uint32_t face)
 {
     const gn_object *object = &context->scene->objects[triangle >> context->triangle_bits];
-    const gn_view *view = &context->light_view;
+    const gn_view *view = context->point_light ? &context->point->views[face] : &context->light_view;
     int32_t world[3][3];
     int64_t normal[3];
     gn_place corner[3];
     gn_vertex v[3];
     gn_depth_plane plane;
     out->triangle = triangle;
+    out->face = (uint8_t)face;
     out->exists = out->faces_light = 0;
     out->plane.dx = out->plane.dy = 0;
     out->slack = 0;
@@ -102,13 +104,25 @@ static GN_NOINLINE void make_plane(const gn_context *context, gn_receiver_plane 
         const gn_vertex *piece = &polygon.v[polygon.reference];
         out->slack = slack_of(&out->plane, &polygon.v[0], piece, piece + 1, polygon.area);
     }
+    if (context->point_light)
+        out->plane.base -= gn_face_row(context, face) * out->plane.dy;
     out->exists = 1;
 }
 
-const gn_receiver_plane *gn_find_plane(const gn_context *context, gn_worker *worker, uint32_t triangle)
+uint32_t gn_face_of(const gn_context *context, const gn_points *points, int32_t i)
 {
-    gn_receiver_plane *plane = &worker->planes[triangle & (GN_COLOUR_CACHE - 1)];
-    if (plane->triangle != triangle)
-        make_plane(context, plane, triangle);
+    if (!context->point_light)
+        return 0;
+    uint32_t row = (points->v[i] + (1u << (GN_FACE_BITS - 1))) >> GN_FACE_BITS, face = context->point->first;
+    for (; row >= context->settings.map_height; row -= context->settings.map_height)
+        face++;
+    return face;
+}
+
+const gn_receiver_plane *gn_find_plane(const gn_context *context, gn_worker *worker, uint32_t triangle, uint32_t face)
+{
+    gn_receiver_plane *plane = &worker->planes[(triangle ^ 9 * face) & (GN_COLOUR_CACHE - 1)];
+    if (plane->triangle != triangle || plane->face != face)
+        make_plane(context, plane, triangle, face);
     return plane;
 }

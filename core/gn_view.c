@@ -175,7 +175,7 @@ gn_status gn_make_light_view(gn_view *view, const gn_light *light, int32_t width
         return GN_OK;
     }
     if (light->kind != GN_DIRECTIONAL)
-        return GN_BAD_ARGUMENT;
+        return light->kind == GN_POINT ? GN_UNSUPPORTED : GN_BAD_ARGUMENT;
     view->affine = 1;
     view->post_projective_depth = 0;
     int32_t limit = 1 << 28;

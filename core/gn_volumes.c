@@ -229,7 +229,7 @@ gn_status gn_volumes_light(gn_context *context, const gn_light *light)
     context->phase = GN_PHASE_NONE;
     context->light = *light;
     if (light->kind != GN_SPOT && light->kind != GN_DIRECTIONAL)
-        return GN_BAD_ARGUMENT;
+        return light->kind == GN_POINT ? GN_UNSUPPORTED : GN_BAD_ARGUMENT;
     gn_status status = GN_OK;
     if (light->kind == GN_SPOT)
         status =

@@ -160,7 +160,7 @@ typedef struct gn_camera {
     int32_t near_depth, far_depth;
 } gn_camera;
 
-typedef enum gn_light_kind { GN_DIRECTIONAL = 0, GN_SPOT = 1 } gn_light_kind;
+typedef enum gn_light_kind { GN_DIRECTIONAL = 0, GN_SPOT = 1, GN_POINT = 2 } gn_light_kind;
 
 typedef struct gn_light {
     uint8_t kind;                         /* gn_light_kind */
@@ -168,9 +168,9 @@ typedef struct gn_light {
     /* directional: the box that the map covers, in world units along right (u), up (v) and forward (z) */
     int32_t box_u, box_v, box_z;              /* smallest u, smallest v, smallest z; |.| <= 2^28 */
     int32_t box_width, box_height, box_depth; /* 64 to 2^28 */
-    /* spot: a square frustum */
+    /* spot: a square frustum; point: six of 90 degrees, without axes */
     int32_t position[3];
-    gn_q8_24 tan_half;             /* tan(fovy/2), 2^-8 to 64 */
+    gn_q8_24 tan_half;             /* spot: tan(fovy/2), 2^-8 to 64 */
     int32_t near_depth, far_depth; /* as in gn_camera, perspective, and far / (far - near) < 2^10 */
 } gn_light;
 
@@ -201,6 +201,11 @@ gn_status gn_fit_light(gn_light *light, const gn_scene *scene);
  * GN_OUT_OF_RANGE: a coordinate, angle or depth outside its range, or target equal to position. */
 gn_status gn_spot_light(gn_light *light, const int32_t position[3], const int32_t target[3], const int32_t up[3],
                         gn_angle fovy, int32_t near_depth, int32_t far_depth);
+
+/* Make a point light. It lights what lies between two cubes about it, near <= max(|x|, |y|, |z|) <= far, and what is
+ * within the inner one casts no shadow. Such lights need settings.faces.
+ * GN_OUT_OF_RANGE: a coordinate or depth outside its range. */
+gn_status gn_point_light(gn_light *light, const int32_t position[3], int32_t near_depth, int32_t far_depth);
 
 /* Build a model matrix: start with identity; each call acts after what is there already. A scale of 0 flattens; the
  * axis is any vector but 0. Written only on GN_OK. Error of one call: 2^-27 of the matrix. */
@@ -283,6 +288,13 @@ extern const gn_reconstruction gn_silhouettes, gn_silhouettes_smooth;
  * light pass and somewhat less exact borders. docs/shadow-test.md. */
 extern const gn_reconstruction gn_crossings;
 
+/* Point lights: six maps, one a face of a cube about the light, each wider than its face by a texel or more, so that
+ * filters and silhouettes go on across the cube's edges. None (0): directional and spot lights only. Linked only
+ * where named. docs/point-lights.md. */
+typedef struct gn_faces gn_faces;
+extern const gn_faces gn_six_faces; /* six maps in memory, that stay for any number of camera passes */
+extern const gn_faces gn_one_face;  /* one at a time: gn_point_pass alone. A bit, with filters a byte a pixel more */
+
 typedef enum gn_bias_unit {
     GN_BIAS_WORLD = 0, /* whole world units along the light (spot: converted at w = sqrt(near far)) */
     GN_BIAS_TEXELS,    /* Q16.16: the depth of so many texels at 45 degrees */
@@ -318,8 +330,9 @@ typedef struct gn_settings {
     const gn_fit *fit;                       /* 0: the light's own box or frustum. The same */
     const gn_warp *warp;                     /* 0: texels of one size. The same */
     gn_q16_16 smoothing;                     /* of warps: times the usual window; 1/64 to 64, 0: 1 */
-    uint8_t fit_depth; /* 1: with a fit of directional lights, stored depths span what the camera sees; what is
-                        * nearer to the light is taken to be at the near end. More depth resolution */
+    uint8_t fit_depth;     /* 1: with a fit of directional lights, stored depths span what the camera sees; what is
+                            * nearer to the light is taken to be at the near end. More depth resolution */
+    const gn_faces *faces; /* for point lights, else 0. Says nothing with volumes */
 } gn_settings;
 
 /* Second depth, the point, the nearest texel, everything else left to gn_make_plan and no bias: the least that a scene
@@ -328,7 +341,7 @@ gn_settings gn_default_settings(uint16_t width, uint16_t height, uint16_t map_si
 
 typedef struct gn_plan {
     size_t bytes;                 /* of the whole block: the maximum of the passes */
-    size_t map_bytes;             /* of it: the shadow map, which stays between the passes */
+    size_t map_bytes;             /* of it: the shadow map or six, which stay between the passes */
     size_t silhouette_bytes;      /* of it: the silhouette or crossing map, which stays as well; 0 without */
     size_t light_bytes;           /* needed during the light pass, map included */
     size_t camera_bytes;          /* needed during the camera pass, map included */
@@ -388,7 +401,8 @@ int gn_texel_place(const gn_context *context, uint32_t column, uint32_t row, uin
 
 /* Render the shadow map. It stays valid for any number of camera passes.
  * GN_OUT_OF_RANGE: the light or a model is outside its ranges, a vertex beyond GN_WORLD_MAX, or the scene more than
- * 8192 times as deep as the light's box. GN_NOT_READY: a fit or a warp, and no view pass. */
+ * 8192 times as deep as the light's box. GN_UNSUPPORTED: a point light.
+ * GN_NOT_READY: a fit or a warp, and no view pass. */
 gn_status gn_light_pass(gn_context *context, const gn_light *light);
 
 /* The same in steps: begin; then for every region in any order, on any worker (0 .. workers-1, each used by one thread
@@ -397,6 +411,18 @@ gn_status gn_light_pass(gn_context *context, const gn_light *light);
 gn_status gn_light_begin(gn_context *context, const gn_light *light);
 gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker);
 gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker);
+
+/* The light pass of a point light with gn_six_faces, in place of gn_light_pass: every face that a caster reaches. The
+ * camera pass is that of the other lights.
+ * GN_BAD_ARGUMENT: not a point light; GN_UNSUPPORTED: settings.faces is not &gn_six_faces, shadow volumes, a fit or a
+ * warp, or a map too small for its border; GN_OUT_OF_RANGE: as for gn_light_pass. */
+gn_status gn_light_faces(gn_context *context, const gn_light *light);
+
+/* The same in steps: for each of the faces 0 to 5 (towards +x, -x, +y, -y, +z, -z), in any order, this in place of
+ * gn_light_begin; then the regions. *regions: plan.light_regions, or 0 where no caster reaches the face: then it is
+ * done. Faces stay while the light stands still; where one caster moves, those that it leaves, enters or crosses are
+ * enough. Until the camera pass gn_layer and the map of silhouettes or crossings are those of the latest face. */
+gn_status gn_light_face(gn_context *context, const gn_light *light, uint32_t face, uint32_t *regions);
 
 /* Between layers and resolve: the first (0) or second (1; of GN_SLOPE: m) layer of the region on that worker, after
  * resolve (0): the map. Row i of the region starts at index i * *stride. 0 if there is no such layer. GN_MIXED marks
@@ -439,12 +465,22 @@ gn_status gn_camera_begin(gn_context *context, const gn_camera *camera);
 gn_status gn_camera_region(gn_context *context, uint32_t region, uint32_t worker, void *colour, uint8_t *mask,
                            gn_pixels *pixels);
 
+/* ---- point lights in one pass (settings.faces) ------------------------------------------------------------------- */
+
+/* Light pass and camera pass of a point light in one, for a light or casters that move, and the only one with
+ * gn_one_face: that draws a face's map, tests all pixels that it lights, and goes on to the next. Faces without casters
+ * are skipped, and faces that light nothing in view. Worker 0 does it all; no map stays. Statuses: as for gn_light_face
+ * and gn_camera_pass. */
+gn_status gn_point_pass(gn_context *context, const gn_light *light, const gn_camera *camera, gn_flush flush,
+                        void *user);
+
 /* ---- shadow volumes (settings.shadow GN_SHADOW_VOLUMES) ---------------------------------------------------------- */
 
 /* In place of the light pass: decide exactly which way every triangle faces, and find the silhouette edges. To be done
  * anew whenever a model has changed; none may change before the last region of a frame is done. GN_UNSUPPORTED: the
- * context was not made for volumes (and the light and camera passes, where it was); GN_BAD_MESH: edges that do not
- * exist, join nothing, or are too few or too many; GN_BAD_ARGUMENT, GN_OUT_OF_RANGE: as for gn_light_pass. */
+ * context was not made for volumes (and the light and camera passes, where it was), or a point light; GN_BAD_MESH:
+ * edges that do not exist, join nothing, or are too few or too many; GN_BAD_ARGUMENT, GN_OUT_OF_RANGE: as for
+ * gn_light_pass. */
 gn_status gn_volumes_light(gn_context *context, const gn_light *light);
 
 /* In place of the camera pass and its steps; same arguments and statuses. A pixel is shadowed where the volumes that
@@ -476,6 +512,7 @@ typedef struct gn_statistics {
     uint64_t silhouette_texels; /* bytes of the map that hold a point or a crossing, summed over the light passes */
     uint64_t volume_faces;      /* set up in the camera pass, each region counted */
     uint64_t volume_fragments;  /* covered by them; over camera_fragments: the overdraw factor O of Sen et al. */
+    uint64_t faces_drawn, faces_skipped; /* of point lights */
     uint64_t map_bytes;
 } gn_statistics;
 

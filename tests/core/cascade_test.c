@@ -215,7 +215,7 @@ static verdict judge(gn_context *context, filter how, receiver who, const point 
 {
     static const int depths[FILTERS] = {1, 4, 16, 9, 25, 49, 4, 4};
     verdict v = {0, 1, 0, 0, 0, 0, 0};
-    const gn_receiver_plane *plane = who == POINT ? 0 : gn_find_plane(context, &context->workers[0], triangle);
+    const gn_receiver_plane *plane = who == POINT ? 0 : gn_find_plane(context, &context->workers[0], triangle, 0);
     tested t = {context, 0, p->z};
     if (p->where != ON_MAP) {
         v.outside = 1;
@@ -381,9 +381,9 @@ static void disturb(gn_context *context, const uint32_t *triangle, int32_t pixel
             else if (how == 1)
                 *texel = (gn_depth)tap_random(&random_state);
             else if (how < 14 && seen != GN_NO_TRIANGLE) {
-                gn_wide_plane plane = gn_find_plane(context, worker, seen)->plane;
+                gn_wide_plane plane = gn_find_plane(context, worker, seen, 0)->plane;
                 int64_t z = plane.base + (int64_t)column * plane.dx + (int64_t)row * plane.dy;
-                z -= how < 8 ? gn_find_plane(context, worker, seen)->slack : 0;
+                z -= how < 8 ? gn_find_plane(context, worker, seen, 0)->slack : 0;
                 z += how % 6 < 2 ? 0 : (int64_t)between(-3, 3) * (how % 6 < 4 ? 65536 : 1);
                 *texel = (gn_depth)((z < 0 ? 0 : z > 0xffffffff ? 0xffffffff : z) >> (32 - GN_DEPTH_BITS));
             }

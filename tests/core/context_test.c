@@ -785,7 +785,7 @@ static void planes_out_of_reach_are_level(const courtyard *c)
             /* so large that corners are out of reach, and the middle is where it was */
             good = good && gn_model_scale(&model, 8 << 16, 1 << 16, 8 << 16) == GN_OK;
             good = good && gn_camera_pass(f.context, &moved.camera, frame_flush, &f) == GN_OK;
-            const gn_receiver_plane *plane = good ? gn_find_plane(f.context, &f.context->workers[0], 0) : 0;
+            const gn_receiver_plane *plane = good ? gn_find_plane(f.context, &f.context->workers[0], 0, 0) : 0;
             good = good && plane->faces_light && !plane->exists;
             for (size_t i = 0; good && i < mask_bytes(&f); i++)
                 seen += f.mask[i] != 255;

@@ -219,7 +219,7 @@ static void compare_lone(alone *a, const gn_light *light, uint64_t n, lone_count
     look_along(&context->camera, light);
     context->workers[0].planes = a->planes;
     a->planes[0].triangle = GN_NO_TRIANGLE;
-    const gn_receiver_plane *plane = gn_find_plane(context, &context->workers[0], 0);
+    const gn_receiver_plane *plane = gn_find_plane(context, &context->workers[0], 0, 0);
     int clips = context->objects[0].clips;
     const gn_vertex *v = context->vertices;
     int32_t left = 0, right = width;
@@ -705,7 +705,7 @@ static double steepest_over(const gn_context *context, const gn_mesh *mesh, int6
  * steep plane turns an error of place into one of depth. */
 static int has_a_reason(gn_context *context, const gn_mesh *mesh, uint32_t triangle, const point *p, int by_vote)
 {
-    const gn_receiver_plane *plane = gn_find_plane(context, &context->workers[0], triangle);
+    const gn_receiver_plane *plane = gn_find_plane(context, &context->workers[0], triangle, 0);
     int64_t one = (int64_t)1 << p->bits, column = p->u / one, row = p->v / one;
     double unit = GN_DEPTH_BITS == 16 ? 65536 : 1, h = rise_of(&plane->plane), steepest;
     if (!plane->exists)
@@ -918,7 +918,7 @@ static void samples_of_lone_planes_are_what_is_stored_so_less_would_shadow_them(
             int32_t column = (int32_t)(at.u >> at.bits), row = (int32_t)(at.v >> at.bits);
             if (at.where != ON_MAP || column > 63 || row > 63 || !covers(&p, column, row))
                 continue;
-            uint32_t z = gn_saturate(gn_wide_depth(&gn_find_plane(context, worker, 0)->plane, column, row));
+            uint32_t z = gn_saturate(gn_wide_depth(&gn_find_plane(context, worker, 0, 0)->plane, column, row));
             gn_depth sample = (gn_depth)(z >> (32 - GN_DEPTH_BITS)),
                      stored = texel_at(context, (uint32_t)column, (uint32_t)row);
             if (stored == EMPTY)
@@ -958,7 +958,7 @@ static void slack_is_what_snapping_asks_for(uint64_t cases)
         look_along(&a.context->camera, &light);
         a.context->workers[0].planes = a.planes;
         a.planes[0].triangle = GN_NO_TRIANGLE;
-        const gn_receiver_plane *plane = gn_find_plane(a.context, &a.context->workers[0], 0);
+        const gn_receiver_plane *plane = gn_find_plane(a.context, &a.context->workers[0], 0, 0);
         const gn_vertex *v = a.context->vertices;
         double area = fabs((double)gn_area(&v[0], &v[1], &v[2])), h = rise_of(&plane->plane), least = HUGE_VAL, sum = 0;
         if (!plane->exists)

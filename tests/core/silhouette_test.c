@@ -800,8 +800,10 @@ static void lights_and_cameras_out_of_range_are_refused(void)
     set_stage(&s);
     ok(frame_start(&f, &s.scene, &s.settings) == GN_OK, "a_context_is_made");
     light = s.light;
-    light.kind = 2;
+    light.kind = 3;
     check_refused(&f, &s, &light, GN_BAD_ARGUMENT, "an_unknown_kind_of_light_is_a_bad_argument");
+    light.kind = GN_POINT;
+    check_refused(&f, &s, &light, GN_UNSUPPORTED, "a_point_light_casts_no_volumes");
     light = s.light;
     light.forward[1] = (1 << 30) + 17;
     check_refused(&f, &s, &light, GN_OUT_OF_RANGE, "an_axis_longer_than_one_is_out_of_range");

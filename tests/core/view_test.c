@@ -511,7 +511,8 @@ static void ranges_are_checked(void)
     ORTHOGRAPHIC(camera.far_depth = 1063, GN_OUT_OF_RANGE);
     ORTHOGRAPHIC(camera.far_depth = 1064, GN_OK);
     LIGHT(GN_SPOT, (void)0, GN_OK);
-    LIGHT(GN_SPOT, light.kind = 2, GN_BAD_ARGUMENT);
+    LIGHT(GN_SPOT, light.kind = GN_POINT, GN_UNSUPPORTED); /* six views */
+    LIGHT(GN_SPOT, light.kind = 3, GN_BAD_ARGUMENT);
     LIGHT(GN_SPOT, light.tan_half = (1 << 16) - 1, GN_OUT_OF_RANGE);
     LIGHT(GN_SPOT, light.tan_half = (64u << 24) + 1, GN_OUT_OF_RANGE);
     LIGHT(GN_SPOT, light.near_depth = 0, GN_OUT_OF_RANGE);

@@ -116,7 +116,7 @@ static void vote(const gn_lookup *lookup, gn_points *points)
         pixel *p = recorded(points, i);
         uint32_t u = points->u[i], v = points->v[i];
         if (points->triangle[i] == GN_NO_TRIANGLE || u == GN_NOWHERE ||
-            !gn_find_plane(recording.context, recording.worker, points->triangle[i])->faces_light)
+            !gn_find_plane(recording.context, recording.worker, points->triangle[i], 0)->faces_light)
             continue;
         gn_wide_plane level = {points->z[i], 0, 0};
         p->on_map = 1;

@@ -70,7 +70,7 @@ static struct {
 /* By the plane itself: z < stored is z + 1 <= stored, the same plane one stored unit farther. */
 static uint32_t sample_strictly(const gn_lookup *lookup, gn_points *points, int32_t i, const gn_wide_plane *nearer)
 {
-    const gn_receiver_plane *plane = gn_find_plane(recording.context, recording.worker, points->triangle[i]);
+    const gn_receiver_plane *plane = gn_find_plane(recording.context, recording.worker, points->triangle[i], 0);
     gn_wide_plane farther = plane->exists ? plane->plane : *nearer;
     farther.base += (int64_t)1 << (32 - GN_DEPTH_BITS);
     return recording.how->sample(lookup, points, i, &farther);
@@ -85,7 +85,7 @@ static state voted(const gn_lookup *lookup, const gn_points *points, int32_t i)
 {
     if (points->triangle[i] == GN_NO_TRIANGLE)
         return NO_SURFACE;
-    if (!gn_find_plane(recording.context, recording.worker, points->triangle[i])->faces_light)
+    if (!gn_find_plane(recording.context, recording.worker, points->triangle[i], 0)->faces_light)
         return TURNED_AWAY;
     if (points->u[i] == GN_NOWHERE)
         return OUTSIDE;
