@@ -70,9 +70,6 @@ const gn_parameterisation *gn_find_parameterisation(const gn_settings *settings)
 /* The hooks. */
 extern const gn_parameterisation gn_fit_and_warp;
 
-/* gn_nearest.c: what stands for neither receiver nor reconstruction: the texel that holds the point decides. */
-extern const gn_reconstruction gn_nearest;
-
 /* gn_fit.c: a light's view of the rectangle, width x height. Directional: *light becomes the one whose box it is. */
 gn_status gn_make_fitted_view(gn_view *view, gn_light *light, const gn_rectangle *rectangle, int32_t width,
                               int32_t height);

@@ -3,8 +3,12 @@
  * of the warp, whose places count within the fitted rectangle.
  *
  * Memory: what the camera pass needs for visibility, and the sums, in the place of the map, which is lost. */
+#include "gn_around.h"
 #include "gn_bins.h"
 #include "gn_parameterisation.h"
+
+/* What stands for neither receiver nor reconstruction: gn_shade.c knows nothing of fits and warps. */
+static const gn_reconstruction nearest = {gn_cascade_row, gn_vote_nearest, 0, gn_colour_row, GN_DARK, 1, 0, 0, 0};
 
 /* ---- planning ---------------------------------------------------------------------------------------------------- */
 
@@ -52,7 +56,7 @@ static uint64_t lay_out_head(gn_context *context, uint64_t used, const gn_settin
         if (s->warp)
             s->warp->lay_out(context, tables);
         if (!s->receiver && !s->reconstruction)
-            context->settings.reconstruction = &gn_nearest;
+            context->settings.reconstruction = &nearest;
     }
     return used;
 }
