@@ -7,8 +7,8 @@
  * Cost on a Cortex-M4: docs/performance.md. Memory: two bytes a column and a row. */
 #include "gn_chain.h"
 #include "gn_insert.h"
-#include "gn_warps.h"
 #include "gn_warp_table.h"
+#include "gn_warps.h"
 
 void gn_find_fine(const gn_grid *grid, int32_t column, int32_t row, int32_t fine[2])
 {
@@ -40,37 +40,81 @@ static uint32_t rise_at(const gn_layer_target *t, int32_t column, int32_t row)
     return rise >> 34 ? 0xffffffffu : (uint32_t)(rise >> 2);
 }
 
+/* The columns [left, right) of a row, one way of insertion. */
+GN_INLINE void insert_columns(const gn_layer_target *t, int32_t row, int32_t left, int32_t right, gn_insertion how)
+{
+    const uint16_t *column = t->grid->columns + left, *end = t->grid->columns + right;
+    int32_t at = row * t->stride + left;
+    uint32_t start = gn_start_depth(t, t->grid->rows[row], 0), dx = t->plane.dx, open = t->open;
+    gn_depth *z1 = t->first + at, *z2 = how == GN_INSERT_FIRST ? 0 : t->second + (at - t->second_offset);
+    for (; column != end; column++) {
+        gn_depth v = gn_cut_layer(start + *column * dx, how, open);
+        if (how == GN_INSERT_FIRST)
+            gn_insert_first(z1, v);
+        else if (how == GN_INSERT_TWICE)
+            gn_insert_twice(z1, z2++, v);
+        else
+            gn_insert_two(z1, z2++, v);
+        z1++;
+    }
+}
+
+static GN_COLD void insert_steep_columns(const gn_layer_target *t, int32_t row, int32_t left, int32_t right)
+{
+    int32_t fine_row = t->grid->rows[row];
+    for (; left < right; left++)
+        gn_insert(t, row * t->stride + left,
+                  gn_saturate(gn_wide_depth(&t->steep_plane, t->grid->columns[left], fine_row)), rise_at(t, left, row));
+}
+
+static void insert_rising_columns(const gn_layer_target *t, int32_t row, int32_t left, int32_t right)
+{
+    uint32_t start = gn_start_depth(t, t->grid->rows[row], 0);
+    for (; left < right; left++)
+        gn_insert(t, row * t->stride + left, start + t->grid->columns[left] * t->plane.dx, rise_at(t, left, row));
+}
+
 static void insert_span(const gn_layer_target *t, int32_t row, int32_t left, int32_t right)
 {
-    const uint16_t *columns = t->grid->columns;
-    int32_t fine_row = t->grid->rows[row], at = row * t->stride;
-    uint32_t start = gn_start_depth(t, fine_row, 0), dx = t->plane.dx, rise = 0;
     GN_TALLY(t->tally->centres += (uint32_t)(right - left);)
-    if (t->how == GN_INSERT_FIRST && !t->steep) {
-        for (gn_depth *z1 = t->first + at; left < right; left++)
-            gn_insert_first(z1 + left, gn_cut_layer(start + columns[left] * dx, GN_INSERT_FIRST, 0));
-        return;
-    }
-    for (; left < right; left++) {
-        uint32_t z = start + columns[left] * dx;
-        if (GN_UNLIKELY(t->steep))
-            z = gn_saturate(gn_wide_depth(&t->steep_plane, columns[left], fine_row));
-        if (t->how == GN_INSERT_RISING)
-            rise = rise_at(t, left, row);
-        gn_insert(t, at + left, z, rise);
-    }
+    if (GN_UNLIKELY(t->steep))
+        insert_steep_columns(t, row, left, right);
+    else if (t->how == GN_INSERT_FIRST)
+        insert_columns(t, row, left, right, GN_INSERT_FIRST);
+    else if (t->how == GN_INSERT_TWO)
+        insert_columns(t, row, left, right, GN_INSERT_TWO);
+    else if (t->how == GN_INSERT_TWICE)
+        insert_columns(t, row, left, right, GN_INSERT_TWICE);
+    else if (t->how == GN_INSERT_MARKED)
+        insert_columns(t, row, left, right, GN_INSERT_MARKED);
+    else
+        insert_rising_columns(t, row, left, right);
+}
+
+/* Where a search for a fine column or row begins: where it would be on a uniform map. */
+GN_INLINE int32_t guess(int32_t fine, int32_t count)
+{
+    int32_t at = fine < 0 ? 0 : (int32_t)((uint32_t)fine * (uint32_t)count >> GN_FINE_BITS);
+    return at < count ? at : count - 1;
 }
 
 static void walk(const gn_layer_target *t, const gn_rows *rows)
 {
     const gn_grid *grid = t->grid;
-    int32_t row = gn_find_step(grid->rows, grid->height, rows->row - 1, t->row) + 1, left = 0, right = 0;
+    int32_t row = gn_find_step(grid->rows, grid->height, rows->row - 1, guess(rows->row, grid->height)) + 1;
+    row = row < t->row ? t->row : row;
+    if (row >= t->end || grid->rows[row] >= rows->bottom)
+        return; /* between two rows */
+    int32_t left = guess(gn_floor_shift(rows->top->x, 8), grid->width), right = left;
     gn_chain from, to;
     gn_make_chains(&from, &to, rows);
-    for (row = row < t->row ? t->row : row; row < t->end && grid->rows[row] < rows->bottom; row++) {
-        int32_t fine_row = grid->rows[row];
-        left = gn_find_step(grid->columns, grid->width, gn_chain_at(&from, fine_row) - 1, left) + 1;
-        right = gn_find_step(grid->columns, grid->width, gn_chain_at(&to, fine_row) - 1, right) + 1;
+    for (; row < t->end && grid->rows[row] < rows->bottom; row++) {
+        int32_t fine_row = grid->rows[row], fine_left = gn_chain_at(&from, fine_row);
+        int32_t fine_right = gn_chain_at(&to, fine_row);
+        if (fine_left >= fine_right)
+            continue;
+        left = gn_find_step(grid->columns, grid->width, fine_left - 1, left) + 1;
+        right = gn_find_step(grid->columns, grid->width, fine_right - 1, right > left ? right : left) + 1;
         if (left < right)
             insert_span(t, row, left, right);
     }
