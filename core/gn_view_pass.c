@@ -196,14 +196,14 @@ static void gather_row(const gn_context *context, gn_worker *worker, void *sums,
         points.triangle = worker->triangle + from + done;
         points.x = x + done;
         points.count = count - done < GN_BLOCK ? count - done : GN_BLOCK;
-        for (int32_t i = 0; i < points.count; i++)
-            w[i] = q[i];
+        for (int32_t i = 0; context->light.kind == GN_SPOT && i < points.count; i++)
+            w[i] = q[i]; /* finding a spot light's points changes q */
         gn_find_points(context, &points, q);
         for (int32_t i = 0; i < points.count; i++)
             if (points.triangle[i] == GN_NO_TRIANGLE || gn_share(points.u[i], bits) >= reach[0] ||
                 gn_share(points.v[i], bits) >= reach[1])
                 points.u[i] = GN_NOWHERE;
-        round->add(context, sums, &points, w);
+        round->add(context, sums, &points, context->light.kind == GN_SPOT ? w : q);
     }
 }
 
