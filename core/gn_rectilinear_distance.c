@@ -35,12 +35,24 @@ static void merge(const gn_settings *s, void *sums, const void *other)
         least[i] = also[i] < least[i] ? also[i] : least[i];
 }
 
+/* A fit's border has no samples: it is as important as what lies beside it, or it would all but vanish. */
+static void keep_border(const gn_context *context, uint32_t *importance, uint32_t count)
+{
+    if (!context->settings.fit || count < 3)
+        return;
+    importance[0] = importance[0] > importance[1] ? importance[0] : importance[1];
+    importance += count - 2;
+    importance[1] = importance[1] > importance[0] ? importance[1] : importance[0];
+}
+
 static void end(gn_context *context, void *sums)
 {
     const gn_settings *s = &context->settings;
     uint32_t *distance = sums;
     gn_importance_of_distances(distance, s->map_width);
     gn_importance_of_distances(distance + s->map_width, s->map_height);
+    keep_border(context, distance, s->map_width);
+    keep_border(context, distance + s->map_width, s->map_height);
     gn_end_rectilinear(context, distance);
 }
 
