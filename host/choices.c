@@ -71,10 +71,16 @@ static const choice warps[] = {
     {"nonorthogonal-vertices", "&gn_nonorthogonal_vertices", &gn_nonorthogonal_vertices},
 };
 
+static const choice faces[] = {
+    {"none", "0", 0},
+    {"six", "&gn_six_faces", &gn_six_faces},
+    {"one", "&gn_one_face", &gn_one_face},
+};
+
 const choices choices_shadow = TABLE(shadows), choices_cull = TABLE(culls), choices_layers = TABLE(layers),
               choices_surface = TABLE(surfaces), choices_bias_unit = TABLE(bias_units),
               choices_receiver = TABLE(receivers), choices_reconstruction = TABLE(reconstructions),
-              choices_fit = TABLE(fits), choices_warp = TABLE(warps);
+              choices_fit = TABLE(fits), choices_warp = TABLE(warps), choices_faces = TABLE(faces);
 
 int choices_number(const choices *of, const void *object)
 {
@@ -100,6 +106,11 @@ int choices_have_silhouettes(const gn_settings *settings)
 int choices_use_view(const gn_settings *settings)
 {
     return settings->shadow == GN_SHADOW_MAP && (settings->fit || settings->warp);
+}
+
+int choices_have_one_face(const gn_settings *settings)
+{
+    return settings->shadow == GN_SHADOW_MAP && settings->faces == &gn_one_face;
 }
 
 void choices_parameterisation(const gn_settings *settings, char words[PARAMETERISATION_SIZE])

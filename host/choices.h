@@ -23,7 +23,7 @@ typedef struct choices {
 enum { CHOICES_MOST = 12 }; /* no table is longer: choices.c does not compile otherwise */
 
 extern const choices choices_shadow, choices_cull, choices_layers, choices_surface, choices_bias_unit;
-extern const choices choices_receiver, choices_reconstruction, choices_fit, choices_warp;
+extern const choices choices_receiver, choices_reconstruction, choices_fit, choices_warp, choices_faces;
 
 /* The number of the object, which must be one of them. */
 int choices_number(const choices *of, const void *object);
@@ -37,6 +37,9 @@ int choices_have_silhouettes(const gn_settings *settings);
 
 /* Is the map fitted or warped to what the camera sees, in a view pass before the light pass? */
 int choices_use_view(const gn_settings *settings);
+
+/* Is it one map of a point light at a time, of which none stays? */
+int choices_have_one_face(const gn_settings *settings);
 
 enum { PARAMETERISATION_SIZE = 40 };
 

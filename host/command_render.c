@@ -41,7 +41,9 @@ static const option table[OPTION_COUNT] = {
     {0, 0, "What is written (.ppm, .pgm, .pfm; with OpenImageIO also .png, .exr and others):"},
     {"-o", "FILE", "the image, 8 bits a channel"},
     {"--mask", "FILE", "8-bit grey: 0 shadowed to 254 lit, 255 no surface"},
-    {"--depth", "FILE", "nearest depths as seen by the light, 16-bit grey; .pfm, .exr: 0 near to 1 far"},
+    {"--depth", "FILE",
+     "nearest depths as seen by the light, 16-bit grey; .pfm, .exr: 0 near to 1 far.\n"
+     "Of a point light the six maps one below the other: +x, -x, +y, -y, +z, -z"},
     {"--second-depth", "FILE", "second nearest depths, where the method keeps two layers"},
     {"--map-image", "FILE", "the depths that pixels are compared with, made of the layers"},
     {"--silhouettes", "FILE",
@@ -173,6 +175,8 @@ static void say_what_was_tested(const frame *f)
                 s.pixels_outside, s.pixels_agreed, s.pixels_virtual, s.pixels_fractional, s.texels_read,
                 s.virtual_samples);
     fputs("\n", stderr);
+    if (f->settings.faces)
+        fprintf(stderr, "%" PRIu64 " faces drawn, %" PRIu64 " skipped\n", s.faces_drawn, s.faces_skipped);
     if (choices_have_silhouettes(&f->settings))
         fprintf(stderr,
                 "%" PRIu64 " silhouette edges, %" PRIu64 " texels with a point or crossing of one; %" PRIu64
@@ -184,7 +188,7 @@ static void say_what_was_tested(const frame *f)
 
 static int write_depths(job *j, const char *path, const gn_depth *depths)
 {
-    image im = image_make(j->settings.map_width, j->settings.map_height, 1, depth_sample(path));
+    image im = image_make(j->settings.map_width, j->frame.map_rows, 1, depth_sample(path));
     size_t count = image_sample_count(&im);
     for (size_t i = 0; i < count; i++)
         if (im.sample == IMAGE_F32)
@@ -200,7 +204,7 @@ static int write_silhouettes(job *j, const char *path)
 {
     uint32_t stride;
     const uint8_t *map = gn_silhouette_map(j->frame.context, &stride);
-    image im = silhouette_picture(j->frame.map, j->settings.map_width, j->settings.map_height, map, stride);
+    image im = silhouette_picture(j->frame.map, j->settings.map_width, j->frame.map_rows, map, stride);
     int result = image_write(&im, path, &j->why);
     image_free(&im);
     return result;
@@ -299,6 +303,10 @@ static void write_statistics(json *j, const frame *f)
         json_integer(j, "volume_fragments", (int64_t)s.volume_fragments);
         json_number(j, "overdraw", overdraw(&s));
     }
+    if (f->settings.faces) {
+        json_integer(j, "faces_drawn", (int64_t)s.faces_drawn);
+        json_integer(j, "faces_skipped", (int64_t)s.faces_skipped);
+    }
     json_close(j);
     write_bandwidth(j, f, &s);
 }
@@ -353,14 +361,22 @@ static void write_plan(json *j, const gn_settings *s, const gn_plan *plan, int s
     json_close(j);
 }
 
+/* Of a point light with one map at a time none stays. */
+static int has_silhouettes_to_show(const frame *f)
+{
+    return choices_have_silhouettes(&f->settings) && !choices_have_one_face(&f->settings);
+}
+
 static void write_hashes(json *j, const frame *f)
 {
     json_open(j, "hashes");
     if (choices_use_view(&f->settings))
         json_hash(j, "warp", frame_hash_warp(f));
-    json_hash(j, "layers", frame_hash_layers(f));
-    json_hash(j, "map", frame_hash_map(f));
-    if (choices_have_silhouettes(&f->settings))
+    if (!choices_have_one_face(&f->settings)) {
+        json_hash(j, "layers", frame_hash_layers(f));
+        json_hash(j, "map", frame_hash_map(f));
+    }
+    if (has_silhouettes_to_show(f))
         json_hash(j, "silhouettes", frame_hash_silhouettes(f));
     json_hash(j, "mask", frame_hash_mask(f));
     json_hash(j, "colour", frame_hash_colour(f));
@@ -401,9 +417,11 @@ static void print_hashes(const frame *f)
 {
     if (choices_use_view(&f->settings))
         printf("warp %016" PRIx64 "\n", frame_hash_warp(f));
-    printf("layers %016" PRIx64 "\n", frame_hash_layers(f));
-    printf("map %016" PRIx64 "\n", frame_hash_map(f));
-    if (choices_have_silhouettes(&f->settings))
+    if (!choices_have_one_face(&f->settings)) {
+        printf("layers %016" PRIx64 "\n", frame_hash_layers(f));
+        printf("map %016" PRIx64 "\n", frame_hash_map(f));
+    }
+    if (has_silhouettes_to_show(f))
         printf("silhouettes %016" PRIx64 "\n", frame_hash_silhouettes(f));
     printf("mask %016" PRIx64 "\n", frame_hash_mask(f));
     printf("colour %016" PRIx64 "\n", frame_hash_colour(f));
@@ -451,6 +469,9 @@ static int render(job *j)
     if (j->settings.shadow == GN_SHADOW_VOLUMES &&
         (j->values[OUTPUT_DEPTH] || j->values[OUTPUT_SECOND_DEPTH] || j->values[OUTPUT_MAP]))
         return problem_of_usage(&j->why, "shadow volumes have no map to write; expected a method with a shadow map");
+    if (choices_have_one_face(&j->settings) && (j->values[OUTPUT_DEPTH] || j->values[OUTPUT_SECOND_DEPTH] ||
+                                                j->values[OUTPUT_MAP] || j->values[OUTPUT_SILHOUETTES]))
+        return problem_of_usage(&j->why, "with --faces one no map stays to be written; expected --faces six");
     if (j->values[OUTPUT_SILHOUETTES] && !choices_have_silhouettes(&j->settings))
         return problem_of_usage(&j->why,
                                 "--silhouettes, but no silhouette map is made; expected --reconstruct silhouette or "

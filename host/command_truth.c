@@ -48,7 +48,7 @@ static void help(void)
         "usage: gnomon truth SCENE [options]\n\n"
         "Cast rays through SCENE (.scene or .gno) as it is after rounding to integers, and say of every pixel whether\n"
         "the point that its centre sees is lit. All decisions are exact; no map, no bias, nothing of the renderer is\n"
-        "used. `light point` is understood here. Prints counts; per cents are of the pixels that see a surface.\n");
+        "used. Prints counts; per cents are of the pixels that see a surface.\n");
     options_help(table, OPTION_COUNT, stdout);
     puts("\nReasons of ties, and how they are settled (of several the first is named):\n"
          "  eye-edge       the ray passes through an edge or corner of what it sees: it is seen\n"
@@ -192,7 +192,7 @@ static int cast(request *r)
     r->workers = 1;
     if ((values[SIZE] && option_size("--size", values[SIZE], 0, GN_MAX_SIZE, r->size, &r->why)) ||
         (values[WORKERS] && option_number("--workers", values[WORKERS], 1, 64, &r->workers, &r->why)) ||
-        check_outputs(r) || packed_read_any_light(&r->packed, r->scene, 0, &r->why))
+        check_outputs(r) || packed_read(&r->packed, r->scene, 0, &r->why))
         return -1;
     if (!values[SIZE]) {
         r->size[0] = r->packed.settings.width;

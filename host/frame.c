@@ -87,6 +87,7 @@ static void keep_rows(const frame *f, gn_depth *plane, uint32_t layer, uint32_t 
     const gn_depth *from = plane ? gn_layer(f->context, layer, region, worker, &first_row, &rows, &stride) : 0;
     if (!from)
         return;
+    first_row += f->face * f->settings.map_height;
     for (uint32_t y = 0; y < rows; y++)
         memcpy(plane + (size_t)(first_row + y) * width, from + (size_t)y * stride, width * sizeof *plane);
 }
@@ -163,23 +164,68 @@ int frame_view_pass(frame *f, const gn_camera *camera, const gn_light *light, pr
     return refused(status, "view", why);
 }
 
+/* Of a face that no caster reaches, whose map was not drawn. */
+static void keep_empty_face(frame *f)
+{
+    size_t texels = (size_t)f->settings.map_width * f->settings.map_height;
+    gn_depth *planes[] = {f->layers[0], f->layers[1], f->map};
+    for (int i = 0; i < 3; i++)
+        if (planes[i])
+            memset(planes[i] + f->face * texels, 0xff, texels * sizeof *planes[i]);
+}
+
+static gn_status draw_faces(frame *f)
+{
+    enum { FACES = 6 };
+    gn_status status = GN_OK;
+    for (f->face = 0; f->face < FACES && status == GN_OK; f->face++) {
+        uint32_t regions = 0;
+        status = gn_light_face(f->context, &f->light, f->face, &regions);
+        if (status == GN_OK && !regions)
+            keep_empty_face(f);
+        else if (status == GN_OK)
+            status = run_regions(f, run_light_region, regions);
+    }
+    f->face = 0;
+    return status;
+}
+
+static gn_status draw_map(frame *f)
+{
+    gn_status status = gn_light_begin(f->context, &f->light);
+    return status == GN_OK ? run_regions(f, run_light_region, f->plan.light_regions) : status;
+}
+
 int frame_light_pass(frame *f, const gn_light *light, problem *why)
 {
     double start = frame_clock();
-    int volumes = f->settings.shadow == GN_SHADOW_VOLUMES;
-    gn_status status = volumes ? gn_volumes_light(f->context, light) : gn_light_begin(f->context, light);
-    if (status == GN_OK && !volumes)
-        status = run_regions(f, run_light_region, f->plan.light_regions);
+    gn_status status = GN_OK;
+    f->light = *light;
+    if (f->settings.shadow == GN_SHADOW_VOLUMES)
+        status = gn_volumes_light(f->context, light);
+    else if (light->kind != GN_POINT)
+        status = draw_map(f);
+    else if (!choices_have_one_face(&f->settings))
+        status = draw_faces(f);
     f->light_seconds = frame_clock() - start;
     return refused(status, "light", why);
+}
+
+static int take_pixels(void *user, const gn_pixels *pixels)
+{
+    copy_region(user, pixels);
+    return 0;
 }
 
 int frame_camera_pass(frame *f, const gn_camera *camera, problem *why)
 {
     double start = frame_clock();
-    gn_status status = f->settings.shadow == GN_SHADOW_VOLUMES ? gn_volumes_begin(f->context, camera)
-                                                               : gn_camera_begin(f->context, camera);
-    if (status == GN_OK)
+    int volumes = f->settings.shadow == GN_SHADOW_VOLUMES,
+        all = f->light.kind == GN_POINT && choices_have_one_face(&f->settings);
+    gn_status status = all       ? gn_point_pass(f->context, &f->light, camera, take_pixels, f)
+                       : volumes ? gn_volumes_begin(f->context, camera)
+                                 : gn_camera_begin(f->context, camera);
+    if (status == GN_OK && !all)
         status = run_regions(f, run_camera_region, f->plan.camera_regions);
     f->camera_seconds = frame_clock() - start;
     return refused(status, "camera", why);
@@ -235,7 +281,10 @@ int frame_open(frame *f, const gn_scene *scene, const gn_settings *settings, int
     allocate_image(f);
     f->keep_layers = keep_layers;
     f->layer_count = settings->shadow == GN_SHADOW_VOLUMES ? 0 : f->plan.layers == GN_LAYERS_TWO ? 2 : 1;
-    size_t texels = (size_t)f->settings.map_width * f->settings.map_height;
+    if (choices_have_one_face(settings))
+        f->layer_count = 0;
+    f->map_rows = f->settings.map_height * (settings->faces == &gn_six_faces ? 6u : 1u);
+    size_t texels = (size_t)f->settings.map_width * f->map_rows;
     if (keep_layers && f->layer_count)
         f->map = memory_take(texels, sizeof *f->map);
     for (int i = 0; keep_layers && i < f->layer_count; i++)
@@ -265,7 +314,7 @@ void frame_close(frame *f)
 /* Depths, or as many zeros where there is no such layer. */
 static stage_hash hash_depths(const frame *f, stage_hash hash, const gn_depth *depths)
 {
-    size_t count = (size_t)f->settings.map_width * f->settings.map_height;
+    size_t count = (size_t)f->settings.map_width * f->map_rows;
     for (size_t i = 0; i < count; i++) {
         gn_depth depth = depths ? depths[i] : 0;
         hash = GN_DEPTH_BITS == 16 ? stage_hash_u16(hash, (uint16_t)depth) : stage_hash_u32(hash, depth);
@@ -298,7 +347,7 @@ stage_hash frame_hash_silhouettes(const frame *f)
     const uint8_t *map = gn_silhouette_map(f->context, &stride);
     size_t beyond = map != 0; /* the last row and column have no cells, but sides */
     map = map ? map : gn_crossing_map(f->context, &stride);
-    for (size_t row = 0; map && row + beyond < f->settings.map_height; row++)
+    for (size_t row = 0; map && row + beyond < f->map_rows; row++)
         for (size_t column = 0; column + beyond < f->settings.map_width; column++)
             hash = stage_hash_u8(hash, map[row * stride + column]);
     return hash;

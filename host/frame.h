@@ -20,7 +20,12 @@ typedef struct frame {
     uint8_t *mask;   /* width x height; 0 unless settings.mask */
     int keep_layers; /* 1: fill layers[] and map while the light pass runs */
     int layer_count;
-    gn_depth *layers[2], *map;                          /* map_width x map_height */
+    /* map_width x map_rows, the height, or six times that: a point light's faces one below the other. 0 where no map
+     * stays: with shadow volumes, and of a point light with one map at a time */
+    gn_depth *layers[2], *map;
+    uint32_t map_rows;
+    uint32_t face;                                      /* whose map is drawn */
+    gn_light light;                                     /* of the latest light pass */
     double view_seconds, light_seconds, camera_seconds; /* of the latest passes; 0 without a view pass */
     uint8_t **worker_colour, **worker_mask;             /* a region each, where regions are narrower than the image */
 } frame;
@@ -34,6 +39,7 @@ int frame_view_pass(frame *f, const gn_camera *camera, const gn_light *light, pr
 /* After a view pass: where each texel lies in f->rectangle (gn_texel_place), map_width x map_height; free() it. */
 uint32_t (*frame_texel_places(const frame *f))[2];
 
+/* Of a point light with one map at a time the camera pass draws the maps as well. */
 int frame_light_pass(frame *f, const gn_light *light, problem *why);
 int frame_camera_pass(frame *f, const gn_camera *camera, problem *why);
 

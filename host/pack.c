@@ -89,9 +89,11 @@ static void put_camera(writer *w, const gn_camera *c)
     put_numbers(w, (const int32_t[]){c->half_height, c->near_depth, c->far_depth}, 3);
 }
 
-static void put_light(writer *w, const gn_light *l)
+static void put_light(writer *w, const gn_light *l, const gn_settings *s)
 {
-    put(w, l->kind, 4);
+    put(w, l->kind, 1);
+    put(w, (uint32_t)choices_number(&choices_faces, s->faces), 1);
+    put(w, 0, 2);
     put_numbers(w, l->right, 3);
     put_numbers(w, l->up, 3);
     put_numbers(w, l->forward, 3);
@@ -132,7 +134,7 @@ int pack_write(const packed_scene *packed, const char *path, problem *why)
     put(&w, 0, 4);
     put_settings(&w, packed);
     put_camera(&w, &packed->camera);
-    put_light(&w, &packed->light);
+    put_light(&w, &packed->light, &packed->settings);
     put(&w, packed->mesh_count, 4);
     put(&w, packed->scene.object_count, 4);
     for (uint32_t i = 0; i < packed->mesh_count; i++)
@@ -357,17 +359,40 @@ static void get_numbers(reader *r, int32_t *numbers[], size_t count)
         *numbers[i] = get_signed(r);
 }
 
-static int get_light(reader *r, gn_light *l)
+/* Only lights with a direction have axes. */
+static int get_light_axes(reader *r, gn_light *l)
+{
+    if (l->kind != GN_POINT)
+        return get_axes(r, l->right, l->up, l->forward);
+    get_numbers(r, (int32_t *[]){&l->right[0], &l->right[1], &l->right[2]}, 3);
+    get_numbers(r, (int32_t *[]){&l->up[0], &l->up[1], &l->up[2]}, 3);
+    get_numbers(r, (int32_t *[]){&l->forward[0], &l->forward[1], &l->forward[2]}, 3);
+    return 0;
+}
+
+/* A point light has maps of faces, and no other has. */
+static int get_faces(reader *r, int point, gn_settings *s)
+{
+    uint32_t number;
+    if (get_ranged(r, "faces", 1, point, point ? (uint32_t)choices_faces.count - 1 : 0, &number))
+        return -1;
+    s->faces = choices_faces.all[number].object;
+    return 0;
+}
+
+static int get_light(reader *r, gn_light *l, gn_settings *s)
 {
     int32_t *box_corner[] = {&l->box_u, &l->box_v, &l->box_z},
             *box_size[] = {&l->box_width, &l->box_height, &l->box_depth};
-    if (get_byte(r, "kind of light", GN_SPOT, &l->kind) || get_zeros(r, 3) || get_axes(r, l->right, l->up, l->forward))
+    if (get_byte(r, "kind of light", GN_POINT, &l->kind) || get_faces(r, l->kind == GN_POINT, s) || get_zeros(r, 2) ||
+        get_light_axes(r, l))
         return -1;
-    if (l->kind == GN_SPOT) {
+    if (l->kind != GN_DIRECTIONAL) {
+        int spot = l->kind == GN_SPOT;
         get_numbers(r, box_corner, 3);
         get_numbers(r, box_size, 3);
         if (get_point(r, "position coordinate", GN_EYE_MAX, l->position) ||
-            get_ranged(r, "tan_half", 4, 1u << 16, 64u << 24, &l->tan_half))
+            get_ranged(r, "tan_half", 4, spot ? 1u << 16 : 0, spot ? 64u << 24 : UINT32_MAX, &l->tan_half))
             return -1;
         return get_planes(r, 1, &l->near_depth, &l->far_depth);
     }
@@ -589,7 +614,8 @@ int pack_parse(packed_scene *packed, const char *file, const uint8_t *bytes, siz
     reader r = {.file = file, .bytes = bytes, .size = size, .why = why};
     memset(packed, 0, sizeof *packed);
     packed->largest_rounding = -1;
-    if (check_frame(&r) || get_settings(&r, packed) || get_camera(&r, &packed->camera) || get_light(&r, &packed->light))
+    if (check_frame(&r) || get_settings(&r, packed) || get_camera(&r, &packed->camera) ||
+        get_light(&r, &packed->light, &packed->settings))
         return -1;
     return get_meshes_and_objects(&r, packed);
 }

@@ -20,7 +20,8 @@
  *         52      4  smoothing (16.16 bits; 0: 1; 0 without a warp)
  *         56     68  camera: projection, three zero bytes; eye, right, up, forward (3 x 32 bits each); tan_half,
  *                    half_height, near_depth, far_depth (32 bits each)
- *        124     88  light: kind, three zero bytes; right, up, forward (3 x 32 bits each); box_u, box_v, box_z,
+ *        124     88  light: kind: 0 directional, 1 spot, 2 point; faces of a point light in memory: 1 six, 2 one (else
+ *                    0); two zero bytes; right, up, forward (3 x 32 bits each); box_u, box_v, box_z,
  *                    box_width, box_height, box_depth; position (3 x 32 bits); tan_half, near_depth, far_depth
  *        212      8  number of meshes, number of objects
  *        220         meshes: vertex count, triangle count (32 bits each), bytes an index, closed, two zero bytes, edge

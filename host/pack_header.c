@@ -144,15 +144,20 @@ static void write_camera(const source *s, const gn_camera *c)
 static void write_light(const source *s, const gn_light *l)
 {
     fprintf(s->stream, "static const gn_light %s_light = {\n    .kind = %s,\n", s->name,
-            l->kind == GN_SPOT ? "GN_SPOT" : "GN_DIRECTIONAL");
-    write_vector(s, "right", l->right);
-    write_vector(s, "up", l->up);
-    write_vector(s, "forward", l->forward);
-    if (l->kind == GN_SPOT) {
+            l->kind == GN_POINT  ? "GN_POINT"
+            : l->kind == GN_SPOT ? "GN_SPOT"
+                                 : "GN_DIRECTIONAL");
+    if (l->kind != GN_POINT) {
+        write_vector(s, "right", l->right);
+        write_vector(s, "up", l->up);
+        write_vector(s, "forward", l->forward);
+    }
+    if (l->kind != GN_DIRECTIONAL) {
         write_vector(s, "position", l->position);
-        fprintf(s->stream,
-                "    .tan_half = %" PRIu32 "u,\n    .near_depth = %" PRId32 ",\n    .far_depth = %" PRId32 ",\n",
-                l->tan_half, l->near_depth, l->far_depth);
+        if (l->kind == GN_SPOT)
+            fprintf(s->stream, "    .tan_half = %" PRIu32 "u,\n", l->tan_half);
+        fprintf(s->stream, "    .near_depth = %" PRId32 ",\n    .far_depth = %" PRId32 ",\n", l->near_depth,
+                l->far_depth);
     } else {
         fprintf(s->stream,
                 "    .box_u = %" PRId32 ",\n    .box_v = %" PRId32 ",\n    .box_z = %" PRId32
@@ -188,6 +193,7 @@ static void write_settings(const source *s, const gn_settings *settings)
     write_object(s, "reconstruction", &choices_reconstruction, settings->reconstruction);
     write_object(s, "fit", &choices_fit, settings->fit);
     write_object(s, "warp", &choices_warp, settings->warp);
+    write_object(s, "faces", &choices_faces, settings->faces);
     if (settings->fit_depth)
         fputs("    .fit_depth = 1,\n", s->stream);
     if (settings->smoothing)

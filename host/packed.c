@@ -19,7 +19,7 @@ static int quantise_file(packed_scene *packed, const char *path, const file_cont
     return result;
 }
 
-int packed_read_any_light(packed_scene *packed, const char *path, int verbose, problem *why)
+int packed_read(packed_scene *packed, const char *path, int verbose, problem *why)
 {
     file_content content;
     memset(packed, 0, sizeof *packed);
@@ -29,15 +29,6 @@ int packed_read_any_light(packed_scene *packed, const char *path, int verbose, p
                      ? pack_parse(packed, path, content.bytes, content.size, why)
                      : quantise_file(packed, path, &content, verbose, why);
     free(content.bytes);
-    return result;
-}
-
-int packed_read(packed_scene *packed, const char *path, int verbose, problem *why)
-{
-    int result = packed_read_any_light(packed, path, verbose, why);
-    if (!result && packed->point_light)
-        return problem_at(why, path, packed->point_light,
-                          "point lights are not supported yet but by `gnomon truth`; expected 'directional' or 'spot'");
     return result;
 }
 

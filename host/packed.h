@@ -14,20 +14,15 @@ typedef struct packed_scene {
     uint32_t mesh_count;
     gn_camera camera;
     gn_light light;
-    long point_light;     /* line of the scene file with a `light point`, else 0: light has position and depths alone */
-    gn_settings settings; /* image and map size; how shadows are made where has_method */
+    gn_settings settings; /* image and map size; faces of a point light; how shadows are made where has_method */
     int has_method;
     int scale;               /* one world unit of the scene file is 2^scale integers */
     double largest_rounding; /* of a vertex, in world units of the scene file; below 0: not known (.gno) */
 } packed_scene;
 
 /* Read a .scene file with its meshes, or a .gno file (told apart by what they hold). verbose: notices about meshes on
- * standard error. packed_free() it afterwards, also after an error. 0, or -1 and the problem: a point light is one, as
- * the core has none yet. */
+ * standard error. packed_free() it afterwards, also after an error. 0, or -1 and the problem. */
 int packed_read(packed_scene *packed, const char *path, int verbose, problem *why);
-
-/* The same, but a point light is taken. */
-int packed_read_any_light(packed_scene *packed, const char *path, int verbose, problem *why);
 
 /* Make the edges of all meshes that have none, for shadow volumes and silhouettes (adjacency.h). verbose: notices about
  * open edges and the like on standard error. 0, or -1 and the problem: a mesh of more than 715 million triangles. */

@@ -304,12 +304,15 @@ static int pack_camera(packed_scene *packed, const source *s)
 static int pack_point_light(packed_scene *packed, const source *s)
 {
     const scene_light *light = &s->scene->light;
-    gn_light *out = &packed->light;
-    packed->point_light = light->line;
-    rounded_point(s, out->position, light->position);
-    if (rounded_planes(s, light->line, light->near_depth, light->far_depth, &out->near_depth, &out->far_depth))
+    int32_t position[3], near_depth, far_depth;
+    rounded_point(s, position, light->position);
+    if (rounded_planes(s, light->line, light->near_depth, light->far_depth, &near_depth, &far_depth) ||
+        check_perspective(s, light->line, position, 1, near_depth, far_depth))
         return -1;
-    return check_perspective(s, light->line, out->position, 1, out->near_depth, out->far_depth);
+    packed->settings.faces = &gn_six_faces;
+    return gn_point_light(&packed->light, position, near_depth, far_depth) == GN_OK
+               ? 0
+               : WRONG(s, light->line, "the core refuses the light; expected another place or range");
 }
 
 static int pack_light(packed_scene *packed, const source *s)

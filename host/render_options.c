@@ -171,6 +171,24 @@ static int read_view_pass(gn_settings *settings, const char *const values[], pro
     return 0;
 }
 
+/* A point light has no volumes, no view pass, and maps of its own. */
+static int read_faces(gn_settings *settings, const packed_scene *packed, const char *value, problem *why)
+{
+    int point = packed->light.kind == GN_POINT, faces = choices_number(&choices_faces, settings->faces);
+    if (value && !point)
+        return problem_of_usage(why, "--faces has no meaning here; expected a scene with a point light");
+    if (point && settings->shadow == GN_SHADOW_VOLUMES)
+        return problem_of_usage(why, "shadow volumes take no point light; expected a method with a shadow map");
+    if (point && choices_use_view(settings))
+        return problem_of_usage(why, "--parameterise takes no point light; expected uniform");
+    if (read_choice("--faces", value, &choices_faces, &faces, why))
+        return -1;
+    if (value && !faces)
+        return problem_of_usage(why, "--faces none, but the light is a point light; expected six or one");
+    settings->faces = choices_faces.all[faces].object;
+    return 0;
+}
+
 static int read_amounts(gn_settings *settings, const packed_scene *packed, const char *const values[], problem *why)
 {
     double slope;
@@ -295,8 +313,8 @@ int render_options_read(gn_settings *settings, packed_scene *packed, const char 
     int volumes = settings->shadow == GN_SHADOW_VOLUMES;
     if ((volumes && check_volumes(values, why)) || read_view_pass(settings, values, why) ||
         read_light_pass(settings, values, why) || read_camera_pass(settings, values, why) ||
-        read_amounts(settings, packed, values, why) || read_sizes(settings, values, why) ||
-        (choices_use_edges(settings) && packed_make_edges(packed, 0, why)))
+        read_faces(settings, packed, values[RENDER_FACES], why) || read_amounts(settings, packed, values, why) ||
+        read_sizes(settings, values, why) || (choices_use_edges(settings) && packed_make_edges(packed, 0, why)))
         return -1;
     return check_combination(settings, packed, why);
 }

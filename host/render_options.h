@@ -14,6 +14,7 @@ enum {
     RENDER_PARAMETERISE,
     RENDER_SMOOTHING,
     RENDER_FIT_DEPTH,
+    RENDER_FACES,
     RENDER_CULL,
     RENDER_LAYERS,
     RENDER_SURFACE,
@@ -55,6 +56,9 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
     {"--fit-depth", 0, \
      "with a fit: a directional light's depths fitted as well, to what the camera\n" \
      "sees; nearer to the light than that is at the near end"}, \
+    {"--faces", "N", \
+     "maps of a point light in memory: six (the default), one for each face of a cube\n" \
+     "about it, or one at a time: less memory, more time, the same picture"}, \
     {"--cull", "WHICH", \
      "auto, none, back or front faces of closed meshes in the light pass.\n" \
      "auto: what the virtual surface asks for"}, \

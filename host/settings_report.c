@@ -28,6 +28,8 @@ void settings_report_text(FILE *stream, const gn_settings *s, const gn_plan *pla
         fprintf(stream, ", slope %g", ldexp(s->slope, -16));
     fprintf(stream, ", receiver %s, reconstruction %s", word_of(&choices_receiver, s->receiver),
             word_of(&choices_reconstruction, s->reconstruction));
+    if (s->faces)
+        fprintf(stream, ", faces %s", word_of(&choices_faces, s->faces));
     if (!choices_use_view(s))
         return;
     choices_parameterisation(s, words);
@@ -57,6 +59,8 @@ void settings_report_json(json *j, const gn_settings *s, const gn_plan *plan, in
     json_string(j, "reconstruction", word_of(&choices_reconstruction, s->reconstruction));
     choices_parameterisation(s, words);
     json_string(j, "parameterisation", words);
+    if (s->faces)
+        json_string(j, "faces", word_of(&choices_faces, s->faces));
     if (s->fit)
         json_integer(j, "fit_depth", s->fit_depth);
     if (s->warp)

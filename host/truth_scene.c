@@ -190,7 +190,7 @@ int truth_scene_open(truth_scene *scene, const packed_scene *packed, uint32_t wi
     truth_view *view = &scene->view;
     view->camera = packed->camera;
     view->light = packed->light;
-    view->light_kind = packed->point_light             ? TRUTH_POINT
+    view->light_kind = packed->light.kind == GN_POINT  ? TRUTH_POINT
                        : packed->light.kind == GN_SPOT ? TRUTH_SPOT
                                                        : TRUTH_DIRECTIONAL;
     view->width = (int32_t)width;

@@ -200,7 +200,7 @@ static void shine_all_round(scene *s, int32_t x, int32_t y, int32_t z, int32_t n
     gn_light *l = &s->packed.light;
     *l = (gn_light){.near_depth = near_depth, .far_depth = far_depth};
     set_axes(l->position, x, y, z);
-    s->packed.point_light = 1;
+    s->packed.light.kind = GN_POINT;
 }
 
 /* Cast; 0 and a note where it is refused. */
@@ -588,7 +588,7 @@ static int oracle_frustum(oracle *o, const wide point[3], wide divisor, int32_t 
     const gn_light *l = &o->s->packed.light;
     int right = 1, up = 1;
     memcpy(axis, l->forward, sizeof l->forward);
-    if (o->s->packed.point_light) {
+    if (o->s->packed.light.kind == GN_POINT) {
         wide farthest = wide_of(0);
         for (int k = 0; k < 3; k++) {
             int32_t unit[3] = {0, 0, 0};
@@ -602,7 +602,7 @@ static int oracle_frustum(oracle *o, const wide point[3], wide divisor, int32_t 
         }
     }
     wide w = depth_of(point, divisor, axis, l->position);
-    if (!o->s->packed.point_light) {
+    if (o->s->packed.light.kind != GN_POINT) {
         wide reach = wide_multiply(w, wide_of(l->tan_half));
         right = wide_compare(
             reach, wide_multiply(magnitude(depth_of(point, divisor, l->right, l->position)), wide_of(1 << 24)));
@@ -618,7 +618,7 @@ static int oracle_frustum(oracle *o, const wide point[3], wide divisor, int32_t 
 static int oracle_blocked(oracle *o, uint32_t own, const wide point[3], wide divisor, const int32_t axis[3])
 {
     const gn_light *l = &o->s->packed.light;
-    int directional = !o->s->packed.point_light && l->kind == GN_DIRECTIONAL, blocked = 0;
+    int directional = o->s->packed.light.kind != GN_POINT && l->kind == GN_DIRECTIONAL, blocked = 0;
     exact_line line = {.divisor = divisor};
     for (int k = 0; k < 3; k++) {
         line.origin[k] = point[k];
@@ -704,7 +704,7 @@ static uint8_t oracle_answer(oracle *o, uint32_t i, uint32_t j)
         return 255;
     corners_of(o->s, own, corner);
     const int32_t(*plane)[3] = (const int32_t(*)[3])corner;
-    int directional = !o->s->packed.point_light && l->kind == GN_DIRECTIONAL;
+    int directional = o->s->packed.light.kind != GN_POINT && l->kind == GN_DIRECTIONAL;
     int camera_side = camera->projection ? oracle_side(plane, camera->forward, 0) : oracle_side(plane, camera->eye, 1);
     int light_side = directional ? oracle_side(plane, l->forward, 0) : oracle_side(plane, l->position, 1);
     o->tie |= light_side == 0;

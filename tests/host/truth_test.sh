@@ -69,10 +69,9 @@ check "its_tie_is_listed" sh -c "[ \"\$(cat '$folder/edge.txt')\" = '0 0 eye-edg
 
 sed 's/^light.*/light point position 0 2 0 near 0.5 far 3/; s/^image.*/image 8 8/; s/height 1/height 3/' "$folder/edge.scene" >"$folder/point.scene"
 check "a_point_light_is_cast" status 0 truth "$folder/point.scene" --mask "$folder/point.pgm"
-for command in render bench pack; do
-    check "${command}_refuses_a_point_light" refuses "point.scene:5: point lights are not supported yet" $command "$folder/point.scene" \
-        "$([ $command = bench ] && echo --json || echo -o)" "$folder/new.$([ $command = pack ] && echo gno || echo ppm)"
-done
+check "a_point_light_is_packed" status 0 pack "$folder/point.scene" -o "$folder/point.gno"
+check "and_cast_as_before" status 0 truth "$folder/point.gno" --mask "$folder/packed.pgm"
+check "with_the_same_answers" cmp "$folder/point.pgm" "$folder/packed.pgm"
 
 check "no_scene_is_refused" refuses "0 scenes" truth
 check "a_missing_scene_is_refused" refuses "cannot be" truth "$folder/none.scene" --mask "$folder/new.pgm"
