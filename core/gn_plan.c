@@ -389,6 +389,7 @@ void gn_get_statistics(const gn_context *context, gn_statistics *statistics)
         const gn_statistics *s = &context->workers[i].statistics;
         sum.light_triangles += s->light_triangles;
         sum.light_texels += s->light_texels;
+        sum.view_samples += s->view_samples;
         sum.camera_triangles += s->camera_triangles;
         sum.camera_fragments += s->camera_fragments;
         sum.pixels_shaded += s->pixels_shaded;

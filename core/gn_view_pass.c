@@ -203,6 +203,10 @@ static void gather_row(const gn_context *context, gn_worker *worker, void *sums,
             if (points.triangle[i] == GN_NO_TRIANGLE || gn_share(points.u[i], bits) >= reach[0] ||
                 gn_share(points.v[i], bits) >= reach[1])
                 points.u[i] = GN_NOWHERE;
+#if GN_STATISTICS
+        for (int32_t i = 0; context->fitting->round == 0 && i < points.count; i++)
+            worker->statistics.view_samples += points.u[i] != GN_NOWHERE;
+#endif
         round->add(context, sums, &points, context->light.kind == GN_SPOT ? w : q);
     }
 }
@@ -226,6 +230,7 @@ gn_status gn_view_region(gn_context *context, uint32_t region, uint32_t worker)
         gather_row(context, w, sums_of(context->fitting, worker), row * pixels.width, window.column0,
                    window.row0 + (int32_t)row, pixels.width);
 #if GN_STATISTICS
+    before.view_samples = w->statistics.view_samples;
     w->statistics = before;
 #endif
     return GN_OK;

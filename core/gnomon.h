@@ -495,6 +495,7 @@ gn_status gn_volumes_region(gn_context *context, uint32_t region, uint32_t worke
 typedef struct gn_statistics {
     /* set up in the light pass, each region counted, with silhouettes also the row after it; covered by them */
     uint64_t light_triangles, light_texels;
+    uint64_t view_samples;     /* pixels that the view passes saw on the light's plane, each once */
     uint64_t camera_triangles; /* set up in the camera pass, each region counted */
     uint64_t camera_fragments; /* covered by them */
     uint64_t pixels_shaded;    /* pixels that see a surface */

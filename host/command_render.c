@@ -279,6 +279,8 @@ static void write_statistics(json *j, const frame *f)
     json_open(j, "counts");
     json_integer(j, "light_triangles", (int64_t)s.light_triangles);
     json_integer(j, "light_texels", (int64_t)s.light_texels);
+    if (choices_use_view(&f->settings))
+        json_integer(j, "view_samples", (int64_t)s.view_samples);
     json_integer(j, "camera_triangles", (int64_t)s.camera_triangles);
     json_integer(j, "camera_fragments", (int64_t)s.camera_fragments);
     json_integer(j, "pixels_shaded", (int64_t)s.pixels_shaded);

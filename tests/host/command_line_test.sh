@@ -357,6 +357,7 @@ check "its_pixels_are_lit_and_shadowed" sh -c "for value in 0 254; do
     [ \$(tail -c 7500 '$folder/grid.pgm' | od -An -v -tu1 -w1 | grep -cx ' *'\$value) -gt 500 ] || exit 1; done"
 check "statistics_name_fit_and_warp" sh -c "grep -q '\"parameterisation\": \"msf+rectilinear\"' '$folder/grid.json' &&
     grep -q '\"smoothing\": 1' '$folder/grid.json' && grep -q '\"fit_depth\": 0' '$folder/grid.json'"
+check "the_view_pass_sees_all_pixels_of_a_light_about_the_scene" agrees view_samples 'v["pixels_shaded"]' "$folder/grid.json"
 check "tables_take_2_bytes_a_column_and_row" agrees warp '2 * (64 + 48)' "$folder/grid.json"
 check "the_view_pass_takes_memory" test "$(count_of view_pass "$folder/grid.json" | head -n 1)" -gt 1000
 check "the_map_covers_a_part_of_the_plane" agrees covered_percent \
@@ -381,7 +382,7 @@ check "which_another_camera_changes" sh -c "sed 's/^camera perspective eye [^ ]*
     [ \$(grep -c '^warp' '$folder/aside') = 1 ] && ! grep -q \$(sed -n 's/^warp //p' '$folder/dv') '$folder/aside'"
 check "a_uniform_map_has_nothing_of_it" sh -c "'$gnomon' render '$scene' --size 8x6 --stats '$folder/a.json' --hash >'$folder/printed' &&
     grep -q '\"parameterisation\": \"uniform\"' '$folder/a.json' &&
-    ! grep -qE 'warp|light_plane|view_pass|smoothing|fit_depth' '$folder/a.json' '$folder/printed'"
+    ! grep -qE 'warp|light_plane|view_pass|view_samples|smoothing|fit_depth' '$folder/a.json' '$folder/printed'"
 check "bench_measures_the_view_pass" sh -c "'$gnomon' bench '$scene' --runs 2 --size 40x30 --map 32 --parameterise dv+nonorthogonal \
     --smoothing 4 --json '$folder/bench.json' >'$folder/printed' && grep -q '^view  *[0-9]' '$folder/printed' &&
     grep -q 'reconstruction nearest, parameterisation dv+nonorthogonal, smoothing 4, region' '$folder/printed' &&
