@@ -16,7 +16,7 @@ static const gn_reconstruction *find_reconstruction(const gn_context *context)
     return how ? how : find_receiver(context)->nearest;
 }
 
-static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction *how)
+static gn_lookup make_lookup(const gn_context *context, gn_worker *worker, const gn_reconstruction *how)
 {
     gn_lookup l = {context->map,
                    context->map_stride,
@@ -29,7 +29,9 @@ static gn_lookup make_lookup(const gn_context *context, const gn_reconstruction 
                    context->grid ? context->grid->columns : 0,
                    context->grid ? context->grid->rows : 0,
                    how,
-                   context->grid};
+                   context->grid,
+                   context,
+                   worker};
     return l;
 }
 
@@ -108,6 +110,8 @@ static void vote(const gn_context *context, gn_worker *worker, const gn_reconstr
         receiver->prepare(context, worker, points);
     if (receiver->votes)
         how->vote(lookup, points);
+    if (context->grid && context->grid->doubt && receiver->votes && receiver->resample)
+        context->grid->doubt(lookup, points);
 }
 
 void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count)
@@ -116,7 +120,7 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
     const gn_reconstruction *how = find_reconstruction(context);
     gn_vote_at_once *at_once = find_short_cut(context);
     int in_place = how->whole == GN_DARK && context->light.kind != GN_SPOT;
-    gn_lookup lookup = make_lookup(context, how);
+    gn_lookup lookup = make_lookup(context, worker, how);
     uint32_t *q = worker->q + from;
     gn_points points;
     if (!context->camera_view.affine)

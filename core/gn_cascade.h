@@ -34,7 +34,9 @@ typedef struct gn_lookup {
     const uint8_t *silhouettes;     /* the silhouette or crossing map; 0 without */
     const uint16_t *columns, *rows; /* of gn_grid, where the map is warped: the plane of a receiver is in fine texels */
     const gn_reconstruction *how;
-    const gn_grid *grid;
+    const gn_grid *grid; /* 0: the map is uniform */
+    const gn_context *context;
+    gn_worker *worker;
 } gn_lookup;
 
 /* The shadowed shares of a point that lies nowhere on the map. */
@@ -90,6 +92,9 @@ typedef struct gn_receiver_plane {
     uint8_t exists;      /* 0: the light sees the triangle edge-on, or not at all */
     uint8_t faces_light; /* camera and light are on the same side: else it is shadowed whatever the map says */
 } gn_receiver_plane;
+
+/* Of a plane by its own rounding, units of z (docs/number-formats.md). */
+#define GN_PLANE_ERROR 0x8000
 
 /* Take the view's expressions to the next block. */
 GN_INLINE void gn_end_block(gn_points *points)

@@ -166,19 +166,29 @@ static int32_t first_of_two(uint32_t place, uint32_t last, uint32_t bits)
     return last ? (int32_t)gn_first_of_two(place, last, bits) : 0;
 }
 
+int64_t gn_wide_slack(const gn_lookup *l, const gn_points *points, int32_t i, int32_t width)
+{
+    const gn_receiver_plane *plane = gn_find_plane(l->context, l->worker, points->triangle[i], 0);
+    int64_t rise = gn_rise(plane->plane.dx, plane->plane.dy) >> 8, more = plane->slack - GN_PLANE_ERROR - 2 * rise;
+    return plane->exists && more > 0 ? more * (width - 1) : 0;
+}
+
 /* Reconstructions that compare at most the four texels about a point get a plane that has the true depths there, at
  * their own numbers; others read the grid. */
 static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
     const gn_grid *grid = l->grid;
-    if (l->how->samples > 4)
-        return l->how->sample(l, points, i, plane);
     int32_t column = first_of_two(points->u[i], l->last_column, l->bits);
     int32_t row = first_of_two(points->v[i], l->last_row, l->bits);
-    gn_wide_plane local;
-    local.dx = plane->dx * (grid->columns[column + 1] - grid->columns[column]);
-    local.dy = plane->dy * (grid->rows[row + 1] - grid->rows[row]);
-    local.base = gn_wide_depth(plane, grid->columns[column], grid->rows[row]) - column * local.dx - row * local.dy;
+    int32_t width = grid->columns[column + 1] - grid->columns[column], height = grid->rows[row + 1] - grid->rows[row];
+    gn_wide_plane local = *plane;
+    local.base -= gn_wide_slack(l, points, i, width > height ? width : height);
+    if (l->how->samples <= 4) {
+        local.base = gn_wide_depth(&local, grid->columns[column], grid->rows[row]);
+        local.dx *= width;
+        local.dy *= height;
+        local.base -= column * local.dx + row * local.dy;
+    }
     return l->how->sample(l, points, i, &local);
 }
 

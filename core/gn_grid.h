@@ -32,6 +32,8 @@ struct gn_grid {
     void (*walk)(const struct gn_layer_target *t, const gn_rows *rows);
     /* Camera pass: from places in fine texels to places in texels. */
     void (*place)(const struct gn_lookup *lookup, struct gn_points *points);
+    /* Open the points again of whose votes nothing follows before virtual samples; 0: none. */
+    void (*doubt)(const struct gn_lookup *lookup, struct gn_points *points);
     /* gn_sample, by a plane in fine texels. */
     uint32_t (*sample)(const struct gn_lookup *lookup, struct gn_points *points, int32_t i, const gn_wide_plane *plane);
 };

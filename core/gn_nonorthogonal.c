@@ -6,6 +6,7 @@
  * straight above or left of its neighbours, so cells between four texels have no sides, and what needs them is refused.
  *
  * Sums: two bytes a texel, of a column's or band's share of the view, held at 65535. Memory: four bytes a texel. */
+#include "gn_around.h"
 #include "gn_chain.h"
 #include "gn_insert.h"
 #include "gn_warp_table.h"
@@ -105,15 +106,63 @@ static void place(const gn_lookup *l, gn_points *points)
     }
 }
 
-/* The texel that holds the point, by the plane where that texel lies. */
+/* The four texels about a place between texels need not lie about the point: all may be nearer to the light than a
+ * plane is at the point, and none of them shadow it. So that they all vote for shadow is not the end of it. */
+static void doubt(const gn_lookup *l, gn_points *points)
+{
+    (void)l;
+    points->open_count = 0;
+    for (int32_t i = 0; i < points->count; i++)
+        if (points->u[i] != GN_NOWHERE && points->dark[i])
+            points->open[points->open_count++] = (uint8_t)i;
+}
+
+/* How far texels lie apart about one, in fine texels, along the axis where it is more. */
+static int32_t find_spread(const gn_grid *grid, int32_t column, int32_t row)
+{
+    int32_t before = column > 0 ? column - 1 : 0, after = column + 1 < grid->width ? column + 1 : column;
+    int32_t above = row > 0 ? row - 1 : 0, below = row + 1 < grid->height ? row + 1 : row;
+    int32_t at[4][2], spread = 1;
+    gn_find_fine(grid, before, row, at[0]);
+    gn_find_fine(grid, after, row, at[1]);
+    gn_find_fine(grid, column, above, at[2]);
+    gn_find_fine(grid, column, below, at[3]);
+    for (int i = 0; i < 4; i += 2) {
+        for (int axis = 0; axis < 2; axis++) {
+            int32_t apart = at[i][axis] - at[i + 1][axis];
+            apart = apart < 0 ? -apart : apart;
+            spread = apart > spread ? apart : spread;
+        }
+    }
+    return spread;
+}
+
+/* Does a texel shadow a plane where the texel lies? */
+static int is_dark(const gn_lookup *l, const gn_points *points, int32_t i, const gn_wide_plane *plane, int32_t column,
+                   int32_t row)
+{
+    int32_t fine[2];
+    gn_find_fine(l->grid, column, row, fine);
+    int64_t depth = gn_wide_depth(plane, fine[0], fine[1]);
+    depth -= gn_wide_slack(l, points, i, find_spread(l->grid, column, row));
+    return gn_cut(gn_saturate(depth)) > l->map[(uint32_t)row * l->stride + (uint32_t)column];
+}
+
+/* The texel that holds the point decides. Where all four about it have voted for shadow, any of them will do. */
 static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const gn_wide_plane *plane)
 {
-    uint32_t column = gn_texel(points->u[i], l->last_column, l->bits);
-    uint32_t row = gn_texel(points->v[i], l->last_row, l->bits);
-    int32_t fine[2];
-    gn_find_fine(l->grid, (int32_t)column, (int32_t)row, fine);
-    uint32_t z = gn_cut(gn_saturate(gn_wide_depth(plane, fine[0], fine[1])));
-    return z <= l->map[row * l->stride + column] ? 0 : GN_DARK;
+    int32_t column = (int32_t)gn_texel(points->u[i], l->last_column, l->bits);
+    int32_t row = (int32_t)gn_texel(points->v[i], l->last_row, l->bits);
+    if (is_dark(l, points, i, plane, column, row))
+        return GN_DARK;
+    if (!l->context->settings.receiver->votes || points->dark[i] != GN_DARK)
+        return 0;
+    column = (int32_t)gn_first_of_two(points->u[i], l->last_column, l->bits);
+    row = (int32_t)gn_first_of_two(points->v[i], l->last_row, l->bits);
+    for (int32_t k = 0; k < 4; k++)
+        if (is_dark(l, points, i, plane, column + (k & 1), row + (k >> 1)))
+            return GN_DARK;
+    return 0;
 }
 
 /* ---- view pass --------------------------------------------------------------------------------------------------- */
@@ -220,6 +269,7 @@ void gn_lay_out_nonorthogonal(gn_context *context, uint16_t *tables)
     fitting->grid.walk = walk;
     fitting->grid.place = place;
     fitting->grid.sample = sample;
+    fitting->grid.doubt = doubt;
     context->grid = &fitting->grid;
 }
 

@@ -13,9 +13,6 @@
 #include "gn_clip.h"
 #include "gn_point_light.h"
 
-/* Of a plane by its own rounding, units of z (docs/number-formats.md). */
-#define GN_PLANE_ERROR 0x8000
-
 static int32_t length(const gn_vertex *a, const gn_vertex *b)
 {
     int32_t x = a->x - b->x, y = a->y - b->y;

@@ -20,6 +20,10 @@ uint64_t gn_rectilinear_sums(const gn_settings *settings);
 /* From importances of the columns, then of the rows, to the tables. */
 void gn_end_rectilinear(gn_context *context, uint32_t *importance);
 
+/* A receiver's plane allows for a texel's centre half a texel away from its triangle; so much more where texels are
+ * width fine ones wide, units of z. */
+int64_t gn_wide_slack(const gn_lookup *l, const gn_points *points, int32_t i, int32_t width);
+
 /* gn_rectilinear.c, gn_nonorthogonal.c: their rounds of the view pass, and the latter's tables. */
 extern const gn_round gn_round_of_counts, gn_rounds_of_bands[2];
 uint64_t gn_nonorthogonal_bytes(const gn_settings *settings);
