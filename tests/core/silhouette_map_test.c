@@ -10,6 +10,7 @@
 #include "gn_segment.h"
 #include "mesh_edges.h"
 #include "quadrants.h"
+#include "warped.h"
 
 __extension__ typedef __int128 exact;
 
@@ -622,6 +623,7 @@ typedef struct crowd {
     gn_scene scene;
     gn_light light;
     gn_settings settings;
+    tables grid; /* with settings.warp */
 } crowd;
 
 /* How a scene's places are chosen. */
@@ -759,6 +761,8 @@ static gn_status random_crowd(crowd *c)
     c->settings.bias.value = 1 << 16;
     c->settings.receiver = between(0, 1) ? &gn_virtual : 0;
     c->settings.reconstruction = between(0, 3) ? &gn_silhouettes : &gn_silhouettes_smooth;
+    c->settings.warp = between(0, 1) ? &gn_rectilinear : 0;
+    random_tables(&c->grid, &c->settings);
     return status;
 }
 
@@ -777,7 +781,7 @@ typedef struct twin_cell {
 typedef struct twin {
     twin_cell cells[TWIN_SIDE * TWIN_SIDE];
     gn_depth texels[TWIN_SIDE * TWIN_SIDE]; /* the nearest layer, before it is resolved */
-    uint32_t reach;                         /* four texels at 45 degrees */
+    int64_t reach; /* four texels at 45 degrees; of a warped map, times a cell's width of fine texels */
     uint64_t edges, points, hidden, within, contested, apart, clipped;
 } twin;
 
@@ -798,10 +802,19 @@ static int facing_of(const gn_light *light, const gn_object *object, uint32_t tr
     return volume > 0 ? 1 : volume < 0 ? -1 : 0;
 }
 
-/* Does a segment touch a closed cell? Two convex sets do unless an axis parts them. */
-static int touches(const gn_vertex end[2], int64_t column, int64_t row)
+/* A texel's centre, of a warped map in fine texels. */
+static gn_vertex centre_of(const crowd *c, int32_t column, int32_t row)
 {
-    int64_t left = 256 * column + 128, top = 256 * row + 128, right = left + 256, bottom = top + 256;
+    gn_vertex v = {256 * (c->settings.warp ? c->grid.columns[column] : column) + 128,
+                   256 * (c->settings.warp ? c->grid.rows[row] : row) + 128, 0};
+    return v;
+}
+
+/* Does a segment touch a closed cell? Two convex sets do unless an axis parts them. */
+static int touches(const crowd *c, const gn_vertex end[2], int32_t column, int32_t row)
+{
+    gn_vertex first = centre_of(c, column, row), last = centre_of(c, column + 1, row + 1);
+    int64_t left = first.x, top = first.y, right = last.x, bottom = last.y;
     int64_t dx = end[1].x - end[0].x, dy = end[1].y - end[0].y;
     if ((end[0].x < left && end[1].x < left) || (end[0].x > right && end[1].x > right) ||
         (end[0].y < top && end[1].y < top) || (end[0].y > bottom && end[1].y > bottom))
@@ -849,23 +862,26 @@ static int64_t depth_of(gn_depth stored)
 /* The best of a cell's points: of edges that part the texels about them, a caster within reach from what lies far
  * behind; then the nearest to the light, a unit being two of the stored ones; then the smallest byte. Of meshes without
  * edges only those that part texels, and in place of the depth the square of the distance to the nearest far texel. */
-static void draw_in_cell(twin *t, const gn_settings *s, const gn_vertex end[2], int winding, int alone, int32_t column,
+static void draw_in_cell(twin *t, const crowd *c, const gn_vertex end[2], int winding, int alone, int32_t column,
                          int32_t row)
 {
     gn_segment segment;
     gn_segment_point p;
+    const gn_settings *s = &c->settings;
+    gn_vertex first = centre_of(c, column, row), after = centre_of(c, column + 1, row + 1);
+    gn_cell cell = {first.x - 128, first.y - 128, (after.x - first.x) / 256, (after.y - first.y) / 256};
     gn_make_segment(&segment, &end[0], &end[1]);
-    gn_cell cell = {256 * column, 256 * row, 1, 1};
     gn_segment_in_cell(&segment, &cell, &p);
     int64_t z = 2 * (int64_t)p.z, farthest = 0, near_caster = 0, far_off = 0, squared = INT64_MAX;
     int64_t dx = end[1].x - end[0].x, dy = end[1].y - end[0].y;
-    /* an empty texel is always far behind */
-    int64_t limit = z + t->reach, last = depth_of((gn_depth)0xffffffffu) - 1;
+    /* half as far for half the width and half the height; an empty texel is always far behind */
+    int64_t limit = z + t->reach * (cell.width + cell.height) / 2, last = depth_of((gn_depth)0xffffffffu) - 1;
     limit = limit < last ? limit : last;
     for (int i = 0; i < 4; i++) {
-        int32_t c = column + (i & 1), r = row + (i >> 1);
-        int64_t texel = depth_of(t->texels[r * s->map_width + c]);
-        int64_t side = winding * (dx * (256 * r + 128 - end[0].y) - dy * (256 * c + 128 - end[0].x));
+        int32_t texel_column = column + (i & 1), texel_row = row + (i >> 1);
+        gn_vertex centre = centre_of(c, texel_column, texel_row);
+        int64_t texel = depth_of(t->texels[texel_row * s->map_width + texel_column]);
+        int64_t side = winding * (dx * (centre.y - end[0].y) - dy * (centre.x - end[0].x));
         int64_t x = p.x - 256 * (i & 1), y = p.y - 256 * (i >> 1);
         farthest = texel > farthest ? texel : farthest;
         near_caster += side < 0 && texel <= limit;
@@ -899,23 +915,23 @@ static void draw_in_cell(twin *t, const gn_settings *s, const gn_vertex end[2], 
     best->found = 1;
 }
 
-static void draw_edge(twin *t, const gn_context *context, const gn_object *object, const uint32_t index[2], int winding,
-                      int alone)
+static void draw_edge(twin *t, const crowd *c, const gn_view *view, const gn_object *object, const uint32_t index[2],
+                      int winding, int alone)
 {
     gn_vertex end[2];
-    const gn_settings *s = &context->settings;
+    const gn_settings *s = &c->settings;
     t->edges++;
-    if (!find_ends(t, &context->light_view, object, index, end))
+    if (!find_ends(t, view, object, index, end))
         return;
     for (int32_t row = 0; row + 1 < s->map_height; row++)
         for (int32_t column = 0; column + 1 < s->map_width; column++)
-            if (touches(end, column, row))
-                draw_in_cell(t, s, end, winding, alone, column, row);
+            if (touches(c, end, column, row))
+                draw_in_cell(t, c, end, winding, alone, column, row);
 }
 
-static void draw_twin(twin *t, const gn_context *context)
+static void draw_twin(twin *t, const crowd *c, const gn_view *view)
 {
-    const gn_scene *scene = context->scene;
+    const gn_scene *scene = &c->scene;
     for (uint32_t o = 0; o < scene->object_count; o++) {
         const gn_object *object = &scene->objects[o];
         const gn_mesh *mesh = object->mesh;
@@ -923,29 +939,48 @@ static void draw_twin(twin *t, const gn_context *context)
         for (uint32_t e = 0; mesh->edges && e < mesh->edge_count; e++) {
             uint32_t half = mesh->edges[e].half[0], other = mesh->edges[e].half[1];
             uint32_t ends[2] = {index[half], index[next_corner(half)]};
-            int winding = facing_of(&context->light, object, half / 3);
+            int winding = facing_of(&c->light, object, half / 3);
             if (other != GN_NO_HALF_EDGE) {
-                int facing = facing_of(&context->light, object, (other & ~GN_SAME_DIRECTION) / 3);
+                int facing = facing_of(&c->light, object, (other & ~GN_SAME_DIRECTION) / 3);
                 winding += other & GN_SAME_DIRECTION ? facing : -facing;
             }
             if (winding)
-                draw_edge(t, context, object, ends, winding, 0);
+                draw_edge(t, c, view, object, ends, winding, 0);
         }
         for (uint32_t half = 0; !mesh->edges && half < 3 * mesh->triangle_count; half++) {
             uint32_t ends[2] = {index[half], index[next_corner(half)]};
-            int facing = facing_of(&context->light, object, half / 3);
+            int facing = facing_of(&c->light, object, half / 3);
             if (facing)
-                draw_edge(t, context, object, ends, facing, 1);
+                draw_edge(t, c, view, object, ends, facing, 1);
         }
     }
 }
 
 static void note_crowd(const crowd *c, uint64_t n)
 {
-    note("scene %llu: %s light, map %dx%d, surface %d, cull %d, layers %d, %lu objects", (unsigned long long)n,
-         c->light.kind == GN_SPOT ? "spot" : "directional", (int)c->settings.map_width, (int)c->settings.map_height,
-         (int)c->settings.surface, (int)c->settings.cull, (int)c->settings.layers,
-         (unsigned long)c->scene.object_count);
+    note("scene %llu: %s light, %smap %dx%d, surface %d, cull %d, layers %d, %lu objects", (unsigned long long)n,
+         c->light.kind == GN_SPOT ? "spot" : "directional", c->settings.warp ? "warped " : "",
+         (int)c->settings.map_width, (int)c->settings.map_height, (int)c->settings.surface, (int)c->settings.cull,
+         (int)c->settings.layers, (unsigned long)c->scene.object_count);
+}
+
+/* Over the scene, whatever its light. */
+static gn_status crowd_camera(gn_camera *camera)
+{
+    static const int32_t up[3] = {0, 1, 0};
+    int32_t eye[3] = {3000, -2000, 9000}, target[3] = {1000, 1000, -3000};
+    gn_status status = gn_look_at(camera, eye, target, up);
+    return status == GN_OK ? gn_perspective(camera, GN_DEGREES(50), 400, 1 << 25) : status;
+}
+
+/* What comes before the layers. */
+static gn_status begin_light(frame *f, const crowd *c)
+{
+    gn_camera camera;
+    gn_status status = crowd_camera(&camera);
+    if (status == GN_OK && c->settings.warp)
+        status = warp_frame(f, &c->light, &camera, &c->grid);
+    return status == GN_OK ? gn_light_begin(f->context, &c->light) : status;
 }
 
 /* The light pass in one region, and the twin over the layer that it leaves. */
@@ -956,7 +991,7 @@ static gn_status run_with_twin(frame *f, const crowd *c, twin *t)
     uint32_t first, rows, stride;
     memset(t, 0, sizeof *t);
     if (status == GN_OK)
-        status = gn_light_begin(f->context, &c->light);
+        status = begin_light(f, c);
     if (status == GN_OK)
         status = gn_light_layers(f->context, 0, 0);
     if (status != GN_OK)
@@ -966,7 +1001,10 @@ static gn_status run_with_twin(frame *f, const crowd *c, twin *t)
         memcpy(t->texels + row * c->settings.map_width, layer + row * stride,
                c->settings.map_width * sizeof *t->texels);
     t->reach = gn_make_bias(f->context, &reach);
-    draw_twin(t, f->context);
+    if (c->settings.warp) /* a texel of the mean size: GN_FINE / width by GN_FINE / height fine ones */
+        t->reach = t->reach * 2 * c->settings.map_width * c->settings.map_height /
+                   (GN_FINE * (c->settings.map_width + c->settings.map_height));
+    draw_twin(t, c, &f->context->light_view);
     return gn_light_resolve(f->context, 0, 0);
 }
 
@@ -1070,7 +1108,7 @@ static gn_status run_in_any_order(frame *f, const crowd *c)
     s.workers = (uint8_t)between(1, 4);
     gn_status status = frame_start(f, &c->scene, &s);
     if (status == GN_OK)
-        status = gn_light_begin(f->context, &c->light);
+        status = begin_light(f, c);
     shuffle(order, f->plan.light_regions);
     for (uint32_t i = 0; status == GN_OK && i < f->plan.light_regions; i++) {
         uint32_t worker = (uint32_t)between(0, s.workers - 1);
@@ -1100,15 +1138,10 @@ static int same_maps(const frame *a, const frame *b, const crowd *c, uint64_t n)
     return 1;
 }
 
-/* A camera over the scene, whatever its light. */
 static gn_status look_at_crowd(frame *f)
 {
-    static const int32_t up[3] = {0, 1, 0};
     gn_camera camera;
-    int32_t eye[3] = {3000, -2000, 9000}, target[3] = {1000, 1000, -3000};
-    gn_status status = gn_look_at(&camera, eye, target, up);
-    if (status == GN_OK)
-        status = gn_perspective(&camera, GN_DEGREES(50), 400, 1 << 25);
+    gn_status status = crowd_camera(&camera);
     return status == GN_OK ? gn_camera_pass(f->context, &camera, frame_flush, f) : status;
 }
 
@@ -1118,7 +1151,7 @@ static void maps_are_the_twins(uint64_t cases)
     static crowd c;
     uint64_t scenes = 0, edges = 0, cells = 0, hidden = 0, within = 0, contested = 0, apart = 0, clipped = 0, spots = 0,
              rows = 0;
-    uint64_t lit = 0, shadowed = 0, without = 0;
+    uint64_t lit = 0, shadowed = 0, without = 0, warped = 0, warped_points = 0;
     unsigned failures = 0;
     for (uint64_t n = 0; n < cases && failures < 5; n++) {
         frame f, other;
@@ -1159,6 +1192,8 @@ static void maps_are_the_twins(uint64_t cases)
         apart += t.apart;
         clipped += t.clipped;
         spots += c.light.kind == GN_SPOT;
+        warped += c.settings.warp != 0;
+        warped_points += c.settings.warp ? t.points : 0;
         for (uint32_t i = 0; i < c.scene.object_count; i++)
             without += c.shapes[i].mesh.edges == 0;
         if (!frame_end(&f) || (other.block && !frame_end(&other))) {
@@ -1174,11 +1209,13 @@ static void maps_are_the_twins(uint64_t cases)
        (unsigned long long)scenes, (unsigned long long)edges, (unsigned long long)cells);
     ok(scenes > cases / 4 && cells > 10 * scenes && hidden > scenes && within > scenes && contested > scenes &&
            apart > scenes && clipped > scenes / 2 && spots > scenes / 8 && rows > scenes / 4 && without > scenes / 8 &&
-           lit > scenes && shadowed > scenes,
-       "%llu points hidden, %llu within surfaces, %llu beside others, %llu of edges that part the texels, %llu edges "
+           lit > scenes && shadowed > scenes && warped > scenes / 4 && warped_points > cells / 8,
+       "%llu warped maps with %llu cells; %llu points hidden, %llu within surfaces, %llu beside others, %llu of edges "
+       "that part the texels, %llu edges "
        "clipped, %llu meshes "
        "without edges, %llu spot lights, %llu maps of regions; %llu pixels lit, %llu shadowed",
-       (unsigned long long)hidden, (unsigned long long)within, (unsigned long long)contested, (unsigned long long)apart,
+       (unsigned long long)warped, (unsigned long long)warped_points, (unsigned long long)hidden,
+       (unsigned long long)within, (unsigned long long)contested, (unsigned long long)apart,
        (unsigned long long)clipped, (unsigned long long)without, (unsigned long long)spots, (unsigned long long)rows,
        (unsigned long long)lit, (unsigned long long)shadowed);
 }
