@@ -38,6 +38,8 @@ typedef struct patch {
     uint8_t dark[MOST_SIDE * MOST_SIDE];
     gn_depth texels[MOST_SIDE * (MOST_SIDE + PADDING)];
     gn_wide_plane plane;
+    uint16_t columns[MOST_SIDE], rows[MOST_SIDE]; /* where texels lie, of warped maps */
+    int warped;
     gn_lookup lookup;
 } patch;
 
@@ -49,7 +51,9 @@ static void set_lookup(patch *p)
                    .last_row = (uint32_t)p->height - 1,
                    .bits = (uint32_t)p->bits,
                    .whole = gn_silhouettes.whole,
-                   .silhouettes = p->cells};
+                   .silhouettes = p->cells,
+                   .columns = p->warped ? p->columns : 0,
+                   .rows = p->warped ? p->rows : 0};
     p->lookup = l;
 }
 
@@ -61,8 +65,22 @@ static void set_texel(patch *p, int32_t column, int32_t row, int dark)
     p->texels[row * (p->width + PADDING) + column] = (gn_depth)((gn_depth)(z >> (32 - GN_DEPTH_BITS)) - (gn_depth)dark);
 }
 
+/* Cells of one fine texel, of powers of two, and of any width. */
+static void random_places(uint16_t *places, int32_t count)
+{
+    int32_t at = between(0, 9);
+    for (int32_t i = 0; i < count; i++) {
+        int how = between(0, 3);
+        places[i] = (uint16_t)at;
+        at += how == 0 ? 1 : how == 1 ? 1 << between(0, 9) : between(1, how == 2 ? 9 : 560);
+    }
+}
+
 static void random_patch(patch *p)
 {
+    p->warped = between(0, 1);
+    random_places(p->columns, MOST_SIDE);
+    random_places(p->rows, MOST_SIDE);
     p->width = between(2, MOST_SIDE);
     p->height = between(2, MOST_SIDE);
     p->bits = between(8, 18);
@@ -78,12 +96,38 @@ static void random_patch(patch *p)
     set_lookup(p);
 }
 
-/* A cell's point from the upper left corner of another, in 1/16 texel. Beyond the map there are centres. */
+/* Width or height of a cell in fine texels; beyond the map's cells that of the outermost. */
+static int64_t size_of(const patch *p, const uint16_t *places, int32_t cell, int32_t count)
+{
+    cell = cell < 0 ? 0 : cell < count - 1 ? cell : count - 2;
+    return p->warped ? places[cell + 1] - places[cell] : 1;
+}
+
+static int64_t width_of(const patch *p, int32_t column)
+{
+    return size_of(p, p->columns, column, p->width);
+}
+
+static int64_t height_of(const patch *p, int32_t row)
+{
+    return size_of(p, p->rows, row, p->height);
+}
+
+/* The byte of a cell. Beyond the map there are centres. */
+static uint8_t byte_of(const patch *p, int32_t column, int32_t row)
+{
+    int beyond = column < 0 || row < 0 || column >= p->width - 1 || row >= p->height - 1;
+    return beyond ? CENTRE : p->cells[row * p->width + column];
+}
+
+/* The point of a neighbour from the upper left corner of a cell, in 1/16 texel, of warped maps in 1/16 fine texel. */
 static vector point_from(const patch *p, int32_t column, int32_t row, int32_t across, int32_t down)
 {
-    int32_t c = column + across, r = row + down;
-    uint32_t byte = c < 0 || r < 0 || c >= p->width - 1 || r >= p->height - 1 ? CENTRE : p->cells[r * p->width + c];
-    vector v = {16 * across + (int64_t)(byte & 15), 16 * down + (int64_t)(byte >> 4)};
+    uint8_t byte = byte_of(p, column + across, row + down);
+    int64_t left = across > 0 ? width_of(p, column) : across < 0 ? -width_of(p, column - 1) : 0;
+    int64_t top = down > 0 ? height_of(p, row) : down < 0 ? -height_of(p, row - 1) : 0;
+    vector v = {16 * left + width_of(p, column + across) * (byte & 15),
+                16 * top + height_of(p, row + down) * (byte >> 4)};
     return v;
 }
 
@@ -91,12 +135,14 @@ static vector point_from(const patch *p, int32_t column, int32_t row, int32_t ac
 static int find_quadrant(const patch *p, int32_t column, int32_t row, int64_t x, int64_t y, int *line)
 {
     uint8_t cells[5];
-    for (int i = 0; i < 5; i++) {
-        int32_t across = i == 1 ? 1 : i == 3 ? -1 : 0, down = i == 2 ? 1 : i == 4 ? -1 : 0;
-        vector point = point_from(p, column, row, across, down);
-        cells[i] = (uint8_t)((point.y - 16 * down) << 4 | (point.x - 16 * across));
+    cell_sizes sizes;
+    for (int i = 0; i < 5; i++)
+        cells[i] = byte_of(p, column + (i == 1) - (i == 3), row + (i == 2) - (i == 4));
+    for (int i = 0; i < 3; i++) {
+        sizes.width[i] = width_of(p, column + i - 1);
+        sizes.height[i] = height_of(p, row + i - 1);
     }
-    return find_region(cells, p->bits, x, y, line);
+    return find_region_of(cells, &sizes, p->bits, x, y, line);
 }
 
 /* A place in a cell: anywhere, on a line, or about one. */
@@ -109,8 +155,8 @@ static vector random_place(const patch *p, int32_t column, int32_t row)
     vector from = point_from(p, column, row, 0, 0);
     vector to = point_from(p, column, row, side == 0 ? 1 : side == 2 ? -1 : 0, side == 1 ? 1 : side == 3 ? -1 : 0);
     int64_t part = between(0, 16), unit = (int64_t)1 << (p->bits - 8);
-    place.x = (16 * from.x + part * (to.x - from.x)) * unit;
-    place.y = (16 * from.y + part * (to.y - from.y)) * unit;
+    place.x = floor_divide((16 * from.x + part * (to.x - from.x)) * unit, width_of(p, column));
+    place.y = floor_divide((16 * from.y + part * (to.y - from.y)) * unit, height_of(p, row));
     if (between(0, 1)) {
         place.x += between(-1, 1);
         place.y += between(-1, 1);
@@ -161,7 +207,7 @@ static uint32_t smooth_of(const patch *p, int32_t column, int32_t row, vector pl
 static void quadrants_are_figure_5(uint64_t cases)
 {
     static patch p;
-    uint64_t seen[4] = {0}, on_lines = 0, open = 0, partly = 0;
+    uint64_t seen[4] = {0}, on_lines = 0, open = 0, partly = 0, warped = 0, on_warped = 0;
     unsigned failures = 0;
     for (uint64_t n = 0; n < cases && failures < 5; n++) {
         int line;
@@ -190,16 +236,21 @@ static void quadrants_are_figure_5(uint64_t cases)
         if (region >= 0)
             seen[region]++;
         on_lines += (uint64_t)line;
+        warped += (uint64_t)p.warped;
+        on_warped += (uint64_t)(p.warped && line);
         open += (uint64_t)!alike;
         partly += of_four > 0 && of_four < 4;
     }
     ok(!failures, "quadrants are figure 5's eight regions, by angles: %llu places, %llu in cells whose texels differ",
        (unsigned long long)cases, (unsigned long long)open);
     ok(seen[0] > cases / 10 && seen[1] > cases / 10 && seen[2] > cases / 10 && seen[3] > cases / 10 &&
-           on_lines > cases / 10 && open > cases / 2 && partly > cases / 10,
-       "%llu, %llu, %llu, %llu in the four quadrants; %llu on a line; %llu smoothed", (unsigned long long)seen[0],
-       (unsigned long long)seen[1], (unsigned long long)seen[2], (unsigned long long)seen[3],
-       (unsigned long long)on_lines, (unsigned long long)partly);
+           on_lines > cases / 10 && open > cases / 2 && partly > cases / 10 && warped > cases / 4 &&
+           on_warped > cases / 50,
+       "%llu, %llu, %llu, %llu in the four quadrants; %llu on a line; %llu smoothed; %llu on warped maps, %llu of them "
+       "on a line",
+       (unsigned long long)seen[0], (unsigned long long)seen[1], (unsigned long long)seen[2],
+       (unsigned long long)seen[3], (unsigned long long)on_lines, (unsigned long long)partly,
+       (unsigned long long)warped, (unsigned long long)on_warped);
 }
 
 /* Beyond the centres of the outer texels there is no cell: the nearest texel's answer. */
@@ -267,11 +318,14 @@ static void check_sides(patch *p, uint64_t *sides, uint64_t *slanted, unsigned *
                 int64_t run = down ? to.x - from.x : to.y - from.y, rise = down ? to.y - from.y : to.x - from.x;
                 int64_t start = down ? from.x : from.y, at = down ? from.y : from.x;
                 int64_t expected[2], got[2];
+                /* of the cell, towards the neighbour and along the side, where both are alike */
+                int64_t size = down ? width_of(p, column) : height_of(p, row);
+                int64_t length = down ? height_of(p, row) : width_of(p, column);
                 for (int i = 0; i < 2; i++) {
                     /* in 1/16 of a place's unit: at + rise (place - start) / run, the first place beyond; a place on
                      * the line is below it, or right of it */
-                    int64_t n = (16 * (one - 1 + i) - start * one) * rise + at * one * run;
-                    expected[i] = -floor_divide(-n, 16 * run);
+                    int64_t n = (16 * (one - 1 + i) * size - start * one) * rise + at * one * run;
+                    expected[i] = -floor_divide(-n, 16 * run * length);
                     expected[i] = expected[i] < one ? expected[i] : one;
                     got[i] = find_split(p, column + (i ? across : 0), row + (i ? below : 0), i ? 0 : one - 1, down);
                 }
@@ -1725,6 +1779,7 @@ static void borders_of_polygons_meet(uint64_t cases)
         make_edges(s);
         failures += draw_table(&t, cells, &counts) != GN_OK;
         random_patch(&p);
+        p.warped = 0;
         p.width = p.height = MOST_SIDE;
         int32_t left = between(0, SIDE - MOST_SIDE), above = between(0, SIDE - MOST_SIDE);
         for (int32_t i = 0; i < MOST_SIDE * MOST_SIDE; i++) {
