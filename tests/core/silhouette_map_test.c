@@ -365,8 +365,9 @@ static void free_shape(shape *s)
 /* ---- straight edges ---------------------------------------------------------------------------------------------- */
 
 /* An offset is rounded to the nearest 1/16, but the last half of them to 15/16; the point is rounded down to 1/256
- * texel before; a place on the map to 1/256 as well. */
-enum { SIXTEENTH = 16, ROUNDING = 2, IMAGE = 96, MOST_POINTS = 44 };
+ * texel before; a place on the map to 1/256 as well. On a warped map a place is rounded once more from fine texels to
+ * texels, and vertices, which are not in whole parts of a fine texel, by half of 1/256. */
+enum { SIXTEENTH = 16, ROUNDING = 2, ROUNDING_WARPED = 2, IMAGE = 96, MOST_POINTS = 44 };
 
 typedef struct edge_scene {
     shape ground, caster;
@@ -379,6 +380,7 @@ typedef struct edge_scene {
     int32_t eye[2], pixel; /* where the camera stands; the width of a pixel on the ground */
     int32_t width;         /* of the map on the ground */
     int32_t rounding;      /* 1/256 texel */
+    tables grid;           /* with settings.warp */
     int far, test;         /* clipped; of the ways to test a pixel */
 } edge_scene;
 
@@ -519,7 +521,8 @@ static gn_status light_by_sun(edge_scene *e, int32_t texels)
     e->caster = shape_new(between(0, 1));
     int64_t piece = add_caster(e, texels, x, y, 0);
     /* receivers other than the point know the plane that it lies in */
-    int32_t slant = e->settings.receiver ? 8000 : 0, across = between(-slant, slant);
+    int32_t slant = e->settings.receiver && !(e->settings.warp && e->test == 5) ? 8000 : 0,
+            across = between(-slant, slant);
     add_ground(e, GROUND, across, between(-slant, slant));
     e->x = x;
     e->y = y;
@@ -566,9 +569,12 @@ static gn_status build_edge(edge_scene *e, int spot)
     e->settings.format = GN_NO_COLOUR;
     e->settings.mask = 1;
     e->settings.reconstruction = &gn_silhouettes;
-    e->test = choose_test(&e->settings);
+    e->test = choose_test(&e->settings); /* 5: plane bias, by the mean of the cells about a texel */
     random_direction(&e->a, &e->b);
+    e->settings.warp = between(0, 1) ? &gn_rectilinear : 0;
+    random_tables(&e->grid, &e->settings);
     gn_status status = spot ? light_by_lamp(e, texels) : light_by_sun(e, texels);
+    e->rounding += e->settings.warp ? ROUNDING_WARPED : 0;
     e->objects[0].mesh = &e->ground.mesh;
     e->objects[1].mesh = &e->caster.mesh;
     e->scene.objects = e->objects;
@@ -578,25 +584,45 @@ static gn_status build_edge(edge_scene *e, int spot)
 
 typedef struct edge_count {
     unsigned failures;
-    uint64_t scenes, lit, shadowed, far, solids, skipped;
-    int64_t worst; /* 1/4096 texel: of wrong pixels with silhouettes, from the edge */
+    uint64_t scenes, lit, shadowed, far, solids, skipped, warped;
+    int64_t worst, worst_warped; /* 1/4096 texel: of wrong pixels with silhouettes, from the edge */
 } edge_count;
 
-/* Pixels by the exact edge. A pixel's distance is along x and y: the least move along both that brings it onto the
- * edge. Points and places are rounded along x and y, so that is how far the edge may be off. Returns the wrong ones
- * beyond. */
+/* The cell of a place on the map, 2^-12 of its side, by where texels' centres lie; the widest of it and the cells
+ * beside it, whose points its lines lead to, 2^-12 as well. 0: the outer cells' lines lead to where the map knows
+ * nothing. */
+static int find_widest(const edge_scene *e, const uint16_t *places, int64_t at, int64_t *widest)
+{
+    int32_t texels = e->settings.map_width, cell = -1;
+    if (!e->settings.warp) {
+        *widest = 4096 / texels;
+        cell = (int32_t)floor_divide(at * texels, 4096);
+        return cell >= 2 && cell < texels - 2;
+    }
+    while (cell + 1 < texels && places[cell + 1] <= at - 1)
+        cell++;
+    if (cell < 2 || cell >= texels - 3)
+        return 0;
+    *widest = 0;
+    for (int32_t i = cell - 1; i <= cell + 1; i++)
+        *widest = places[i + 1] - places[i] > *widest ? places[i + 1] - places[i] : *widest;
+    return 1;
+}
+
+/* Pixels by the exact edge. A pixel's distance is along x and y: the least move along both, in shares of the cells'
+ * width and height, that brings it onto the edge. Points and places are rounded along x and y, so that is how far the
+ * edge may be off. Returns the wrong ones beyond. */
 static uint64_t judge_edge(const edge_scene *e, const frame *f, edge_count *count, int64_t *worst)
 {
     uint64_t wrong = 0;
-    int64_t texels = e->settings.map_width, from_corner = e->light.kind == GN_SPOT ? e->width : 0;
+    int64_t from_corner = e->light.kind == GN_SPOT ? e->width : 0, texels = e->settings.map_width;
     for (int i = 0; i < IMAGE * IMAGE; i++) {
         /* twice the place on the ground */
-        int64_t x = 2 * (int64_t)e->eye[0] + (int64_t)(2 * (i % IMAGE) + 1 - IMAGE) * e->pixel;
-        int64_t y = 2 * (int64_t)e->eye[1] - (int64_t)(2 * (i / IMAGE) + 1 - IMAGE) * e->pixel;
-        /* the outer cells' lines lead to where the map knows nothing */
-        int64_t u = floor_divide((x + from_corner) * texels, 2 * e->width);
-        int64_t v = floor_divide((y + from_corner) * texels, 2 * e->width);
-        if (u < 2 || v < 2 || u >= texels - 2 || v >= texels - 2) {
+        int64_t x = 2 * (int64_t)e->eye[0] + (int64_t)(2 * (i % IMAGE) + 1 - IMAGE) * e->pixel, width;
+        int64_t y = 2 * (int64_t)e->eye[1] - (int64_t)(2 * (i / IMAGE) + 1 - IMAGE) * e->pixel, height;
+        int64_t u = floor_divide((x + from_corner) * 4096, 2 * e->width);
+        int64_t v = floor_divide((2 * (int64_t)e->width - y - from_corner) * 4096, 2 * e->width);
+        if (!find_widest(e, e->grid.columns, u, &width) || !find_widest(e, e->grid.rows, v, &height)) {
             count->skipped++;
             continue;
         }
@@ -607,8 +633,11 @@ static uint64_t judge_edge(const edge_scene *e, const frame *f, edge_count *coun
         if (got == expected)
             continue;
         /* in 1/4096 texel, rounded up */
-        int64_t reach = 2 * (magnitude(e->a) + magnitude(e->b)) * e->width;
-        int64_t distance = (int64_t)(((exact)magnitude(side) * texels * 4096 + reach - 1) / reach);
+        exact reach =
+            e->settings.warp ? magnitude(e->a) * height + magnitude(e->b) * width : magnitude(e->a) + magnitude(e->b);
+        reach *= 2 * e->width;
+        int64_t distance =
+            (int64_t)(((exact)magnitude(side) * (e->settings.warp ? 4096 : texels) * 4096 + reach - 1) / reach);
         *worst = distance > *worst ? distance : *worst;
         wrong += distance > 16 * (SIXTEENTH + e->rounding);
     }
@@ -628,6 +657,8 @@ static void straight_edges_are_where_they_are(uint64_t cases, int spot)
         gn_status status = build_edge(&e, spot);
         if (status == GN_OK)
             status = frame_start(&f, &e.scene, &e.settings);
+        if (status == GN_OK && e.settings.warp)
+            status = warp_frame(&f, &e.light, &e.camera, &e.grid);
         if (status == GN_OK)
             status = frame_render(&f, &e.light, &e.camera);
         int64_t worst = 0;
@@ -637,12 +668,16 @@ static void straight_edges_are_where_they_are(uint64_t cases, int spot)
                  "pixels wrong, up to %ld/4096 texel off",
                  (unsigned long long)n, (int)status, (long)e.x, (long)e.y, (long)e.a, (long)e.b,
                  (int)e.settings.map_width, (int)e.pixel, e.test, (unsigned long long)wrong, (long)worst);
-        count.worst = worst > count.worst ? worst : count.worst;
+        if (e.settings.warp)
+            count.worst_warped = worst > count.worst_warped ? worst : count.worst_warped;
+        else
+            count.worst = worst > count.worst ? worst : count.worst;
+        count.warped += e.settings.warp != 0;
         count.scenes++;
         count.far += (uint64_t)e.far;
         count.solids += e.caster.mesh.closed;
         e.settings.reconstruction = 0;
-        if (status == GN_OK && n % 8 == 0 && frame_start(&plain, &e.scene, &e.settings) == GN_OK &&
+        if (status == GN_OK && n % 8 == 0 && !e.settings.warp && frame_start(&plain, &e.scene, &e.settings) == GN_OK &&
             frame_render(&plain, &e.light, &e.camera) == GN_OK) {
             edge_count ignored = {0};
             beyond_without += judge_edge(&e, &plain, &ignored, &without);
@@ -656,10 +691,12 @@ static void straight_edges_are_where_they_are(uint64_t cases, int spot)
     }
     ok(!count.failures,
        "straight edges under a %s: no pixel beyond 1/16 texel and rounding, %ld/4096 at most (%ld "
-       "without silhouettes), in %llu scenes",
-       spot ? "spot light" : "sun", (long)count.worst, (long)without, (unsigned long long)count.scenes);
+       "without silhouettes), in %llu scenes; %ld/4096 of a cell in %llu of warped maps",
+       spot ? "spot light" : "sun", (long)count.worst, (long)without, (unsigned long long)(count.scenes - count.warped),
+       (long)count.worst_warped, (unsigned long long)count.warped);
     ok(count.lit > 1000 * cases && count.shadowed > 1000 * cases && beyond_without > 10 * cases &&
-           count.worst > 16 * 8 && (spot || (count.far > cases / 8 && count.solids > cases / 4)),
+           count.worst > 16 * 8 && count.worst_warped > 16 * 8 && count.warped > cases / 4 &&
+           (spot || (count.far > cases / 8 && count.solids > cases / 4)),
        "%llu pixels lit, %llu shadowed, %llu at the map's border; %llu solids, %llu edges clipped; without silhouettes "
        "%llu pixels are wrong",
        (unsigned long long)count.lit, (unsigned long long)count.shadowed, (unsigned long long)count.skipped,
