@@ -520,8 +520,11 @@ static gn_status light_by_sun(edge_scene *e, int32_t texels)
     e->rounding = ROUNDING + (e->far ? 1 : 0);
     e->caster = shape_new(between(0, 1));
     int64_t piece = add_caster(e, texels, x, y, 0);
-    /* receivers other than the point know the plane that it lies in */
-    int32_t slant = e->settings.receiver && !(e->settings.warp && e->test == 5) ? 8000 : 0,
+    /* receivers other than the point know the plane that it lies in; but that its depths differ by no more than the
+     * bias from one texel to the next, or all of them may vote a point of it dark */
+    int32_t slant = !e->settings.receiver ? 0
+                    : e->settings.warp    ? (e->test == 5 ? 0 : 500)
+                                          : 8000,
             across = between(-slant, slant);
     add_ground(e, GROUND, across, between(-slant, slant));
     e->x = x;
@@ -569,7 +572,7 @@ static gn_status build_edge(edge_scene *e, int spot)
     e->settings.format = GN_NO_COLOUR;
     e->settings.mask = 1;
     e->settings.reconstruction = &gn_silhouettes;
-    e->test = choose_test(&e->settings); /* 5: plane bias, by the mean of the cells about a texel */
+    e->test = choose_test(&e->settings); /* 5: plane bias, which takes the mean of unequal cells */
     random_direction(&e->a, &e->b);
     e->settings.warp = between(0, 1) ? &gn_rectilinear : 0;
     random_tables(&e->grid, &e->settings);

@@ -5,7 +5,7 @@
 #include "gn_parameterisation.h"
 #include "scenes.h"
 
-enum { MOST_TEXELS = 64 };
+enum { MOST_TEXELS = 256 };
 
 typedef struct tables {
     uint16_t columns[MOST_TEXELS], rows[MOST_TEXELS];
