@@ -1,11 +1,13 @@
 /* The cascade of the shadow test against its definition: every pixel of random views tested once more, texel by texel,
  * for each receiver and each reconstruction, under both kinds of light. Maps are disturbed after the light pass, so
  * that texels disagree, tie, and are missed by one unit everywhere; votes, virtual samples, filters, fractions, colours
- * and statistics then have to be the twin's. Cases: 80000 views, fewer in slower builds, or GNOMON_CASES. */
+ * and statistics then have to be the twin's. So on warped maps, with columns and rows of any width. Cases: 80000 views,
+ * fewer in slower builds, or GNOMON_CASES. */
 #include "gn_cascade.h"
 #include "points.h"
 #include "quadrants.h"
 #include "scenes.h"
+#include "warped.h"
 
 #include <math.h>
 
@@ -55,7 +57,9 @@ static int is_lit(const tested *t, int64_t column, int64_t row)
     row = clamped(row, s->map_height - 1);
     uint32_t z = t->z;
     if (t->plane) {
-        int64_t depth = t->plane->base + column * t->plane->dx + row * t->plane->dy;
+        const gn_grid *grid = t->context->grid; /* planes are in fine texels */
+        int64_t fine_column = grid ? grid->columns[column] : column, fine_row = grid ? grid->rows[row] : row;
+        int64_t depth = t->plane->base + fine_column * t->plane->dx + fine_row * t->plane->dy;
         z = depth < 0 ? 0 : depth > 0xffffffff ? 0xffffffffu : (uint32_t)depth;
     }
     z >>= 32 - GN_DEPTH_BITS;
@@ -120,6 +124,29 @@ static int filtered(filter how, const tested *t, const point *p, int32_t x, int3
     return lit;
 }
 
+/* From a place in fine texels to one in texels, both from the map's corner: between two centres in proportion, and
+ * from the outermost ones half a texel to the map's ends. Rounded down. */
+static int64_t place_in_texels(const uint16_t *centres, int32_t count, int64_t place, int bits)
+{
+    int64_t one = (int64_t)1 << bits, half = one / 2;
+    int32_t i = -1;
+    place -= half;
+    while (i + 1 < count && centres[i + 1] * one <= place)
+        i++;
+    if (i < 0)
+        return half + floor_divide(place - centres[0] * one, 2 * centres[0] + 1);
+    int64_t wide = i + 1 < count ? centres[i + 1] - centres[i] : 2 * (GN_FINE - centres[i]) - 1;
+    return half + i * one + (place - centres[i] * one) / wide;
+}
+
+/* Twice the width of a texel: the mean of the ways to both neighbours; at the border the one that there is. */
+static uint64_t twice_width(const uint16_t *centres, int32_t count, int64_t texel)
+{
+    int64_t i = clamped(texel, count - 1);
+    int before = i > 0 ? centres[i] - centres[i - 1] : 0, after = i + 1 < count ? centres[i + 1] - centres[i] : 0;
+    return (uint64_t)(before + after + (before ? 0 : after) + (after ? 0 : before));
+}
+
 typedef enum vote { ALL_DARK, MIXED, ALL_LIT } vote;
 
 /* Where the light's box holds all vertices well inside, a point at its border is one that visibility has put on its ray
@@ -146,7 +173,8 @@ static vote vote_of_four(const tested *t, const point *p)
     int64_t column = floor_divide(p->u - one / 2, one), row = floor_divide(p->v - one / 2, one);
     int64_t first_column = clamped(column, s->map_width - 2), first_row = clamped(row, s->map_height - 2);
     int border = first_column != column || first_row != row, lit = 0;
-    if (border && t->context->light.kind == GN_DIRECTIONAL && t->context->shading.trusted == GN_WELL_INSIDE)
+    if (border && t->context->light.kind == GN_DIRECTIONAL && t->context->shading.trusted == GN_WELL_INSIDE &&
+        !t->context->grid)
         return vote_of_any_four(t, (uint32_t)(p->u - one / 2) >> p->bits, (uint32_t)(p->v - one / 2) >> p->bits);
     for (int i = 0; i < 4; i++)
         lit += is_lit(t, first_column + i % 2, first_row + i / 2);
@@ -174,6 +202,15 @@ static uint8_t cell_at(const gn_context *context, int64_t column, int64_t row)
     return exists ? map[row * stride + column] : 0x88;
 }
 
+/* Of the cells before, at and after a place's along one axis; of a warped map those at the ends stand for others. */
+static void find_sizes(const uint16_t *centres, int64_t cell, int32_t count, int64_t size[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int64_t at = clamped(cell + i - 1, count - 2);
+        size[i] = centres ? centres[at + 1] - centres[at] : 1;
+    }
+}
+
 /* Lit shares where the four texels about a point disagree: the texel in whose quadrant it lies, or four places about
  * it. In the border's outer half texel there is no cell. */
 static int by_silhouettes(filter how, const tested *t, const point *p, verdict *v)
@@ -192,15 +229,19 @@ static int by_silhouettes(filter how, const tested *t, const point *p, verdict *
     uint8_t cells[5] = {cell_at(t->context, column, row), cell_at(t->context, column + 1, row),
                         cell_at(t->context, column, row + 1), cell_at(t->context, column - 1, row),
                         cell_at(t->context, column, row - 1)};
+    cell_sizes sizes;
+    const gn_grid *grid = t->context->grid;
+    find_sizes(grid ? grid->columns : 0, column, s->map_width, sizes.width);
+    find_sizes(grid ? grid->rows : 0, row, s->map_height, sizes.height);
     v->reconstructed = 1;
     x -= column * one;
     y -= row * one;
     if (how == SILHOUETTES)
-        return corner[find_region(cells, p->bits, x, y, &line)];
+        return corner[find_region_of(cells, &sizes, p->bits, x, y, &line)];
     sum = 0;
     for (int i = 0; i < 4; i++) {
         vector place = find_one_of_four(i, p->bits, x, y);
-        sum += corner[find_region(cells, p->bits, place.x, place.y, &line)];
+        sum += corner[find_region_of(cells, &sizes, p->bits, place.x, place.y, &line)];
     }
     return sum;
 }
@@ -224,7 +265,13 @@ static verdict judge(gn_context *context, filter how, receiver who, const point 
     }
     if (who == PLANE_BIAS) {
         int64_t dx = plane->plane.dx, dy = plane->plane.dy;
-        uint64_t h = ((uint64_t)(dx < 0 ? -dx : dx) + (uint64_t)(dy < 0 ? -dy : dy)) / 2;
+        uint64_t across = (uint64_t)(dx < 0 ? -dx : dx), down = (uint64_t)(dy < 0 ? -dy : dy), h = (across + down) / 2;
+        if (context->grid) {
+            const gn_settings *s = &context->settings;
+            across *= twice_width(context->grid->columns, s->map_width, floor_divide(p->u, (int64_t)1 << p->bits));
+            down *= twice_width(context->grid->rows, s->map_height, floor_divide(p->v, (int64_t)1 << p->bits));
+            h = (across + down) / 4;
+        }
         h = h > 0xffffffff ? 0xffffffff : h;
         t.z = less(p->z, h * (uint32_t)context->settings.slope >> 16);
     }
@@ -272,6 +319,7 @@ typedef struct view {
     gn_settings settings;
     filter how;
     receiver who;
+    tables grid; /* with settings.warp */
 } view;
 
 /* Large triangles about the origin; one far away now and then, which leaves places on the map few fraction bits. */
@@ -354,7 +402,9 @@ static void make_settings(view *v, uint8_t format)
     do {
         v->how = (filter)between(0, FILTERS - 1);
         v->who = (receiver)between(0, RECEIVERS - 1);
-    } while (v->how == NEAREST && v->who == POINT); /* which is no cascade */
+        s.warp = between(0, 3) ? 0 : &gn_rectilinear;
+    } while (v->how == NEAREST && v->who == POINT && !s.warp); /* which is no cascade */
+    random_tables(&v->grid, &s);
     s.receiver = receivers[v->who];
     s.reconstruction = reconstructions[v->how];
     v->settings = s;
@@ -382,7 +432,9 @@ static void disturb(gn_context *context, const uint32_t *triangle, int32_t pixel
                 *texel = (gn_depth)tap_random(&random_state);
             else if (how < 14 && seen != GN_NO_TRIANGLE) {
                 gn_wide_plane plane = gn_find_plane(context, worker, seen, 0)->plane;
-                int64_t z = plane.base + (int64_t)column * plane.dx + (int64_t)row * plane.dy;
+                int64_t fine_column = context->grid ? context->grid->columns[column] : column;
+                int64_t fine_row = context->grid ? context->grid->rows[row] : row;
+                int64_t z = plane.base + fine_column * plane.dx + fine_row * plane.dy;
                 z -= how < 8 ? gn_find_plane(context, worker, seen, 0)->slack : 0;
                 z += how % 6 < 2 ? 0 : (int64_t)between(-3, 3) * (how % 6 < 4 ? 65536 : 1);
                 *texel = (gn_depth)((z < 0 ? 0 : z > 0xffffffff ? 0xffffffff : z) >> (32 - GN_DEPTH_BITS));
@@ -407,16 +459,16 @@ typedef struct tally {
     unsigned failures;
     uint64_t views[RECEIVERS][FILTERS];
     uint64_t pixels, lit, shadowed, partly, outside, resampled, reconstructed, unseen, away;
-    uint64_t spots, trusted, boxes, orthographic, coarse, at_border, wide, odd;
+    uint64_t spots, trusted, boxes, orthographic, coarse, at_border, wide, odd, warped;
 } tally;
 
 static void note_view(const view *v, uint64_t n)
 {
-    note("view %llu: %s light, %s camera, %s receiver, %s, image %dx%d, map %dx%d", (unsigned long long)n,
+    note("view %llu: %s light, %s camera, %s receiver, %s, image %dx%d, %smap %dx%d", (unsigned long long)n,
          v->light.kind == GN_SPOT ? "spot" : "directional",
          v->camera.projection == GN_PERSPECTIVE ? "perspective" : "orthographic", receiver_names[v->who],
-         filter_names[v->how], (int)v->settings.width, (int)v->settings.height, (int)v->settings.map_width,
-         (int)v->settings.map_height);
+         filter_names[v->how], (int)v->settings.width, (int)v->settings.height, v->settings.warp ? "warped " : "",
+         (int)v->settings.map_width, (int)v->settings.map_height);
 }
 
 /* floor((254 k + n / 2) / n) */
@@ -451,6 +503,10 @@ static void compare_pixels(const view *v, frame *f, const uint32_t *q, const uin
         if (p.beside) { /* what it is compared with says nothing: that it is the same everywhere, vector_test shows */
             *odd = 1;
             continue;
+        }
+        if (context->grid && p.where == ON_MAP) {
+            p.u = place_in_texels(context->grid->columns, v->settings.map_width, p.u, p.bits);
+            p.v = place_in_texels(context->grid->rows, v->settings.map_height, p.v, p.bits);
         }
         verdict e = judge(context, v->how, v->who, &p, triangle[i], x, y);
         unsigned mask = mask_of(e.lit, e.whole);
@@ -532,6 +588,8 @@ static void compare_view(uint64_t n, tally *count)
     gn_status status = make_views(&v);
     if (status == GN_OK)
         status = frame_start(&f, &v.scene, &v.settings);
+    if (status == GN_OK && v.settings.warp)
+        status = warp_frame(&f, &v.light, &v.camera, &v.grid);
     if (status == GN_OK)
         status = gn_light_pass(f.context, &v.light);
     if (status == GN_OK)
@@ -560,6 +618,7 @@ static void compare_view(uint64_t n, tally *count)
         count->orthographic += context->camera_view.affine;
         count->coarse += v.light.kind == GN_DIRECTIONAL && context->shading.position_bits < 8;
         count->wide += v.settings.width > 128;
+        count->warped += v.settings.warp != 0;
     }
     if (f.block && !frame_end(&f) && count->failures++ < 5)
         note("view %llu: wrote outside its block", (unsigned long long)n);
@@ -592,11 +651,12 @@ static void masks_are_the_definition(uint64_t cases)
        (unsigned long long)count.at_border, (unsigned long long)ties, (unsigned long long)misses);
     ok(count.spots > cases / 5 && count.trusted > cases / 20 && count.boxes > cases / 20 &&
            count.orthographic > cases / 5 && count.coarse > cases / 400 && count.wide > cases / 20 &&
-           count.odd < cases / 1000,
+           count.odd < cases / 1000 && count.warped > cases / 8,
        "%llu spot lights, %llu boxes around all, %llu that leave points out, %llu orthographic cameras, %llu with few "
-       "bits of place, %llu wider than a block",
+       "bits of place, %llu wider than a block, %llu warped maps",
        (unsigned long long)count.spots, (unsigned long long)count.trusted, (unsigned long long)count.boxes,
-       (unsigned long long)count.orthographic, (unsigned long long)count.coarse, (unsigned long long)count.wide);
+       (unsigned long long)count.orthographic, (unsigned long long)count.coarse, (unsigned long long)count.wide,
+       (unsigned long long)count.warped);
 }
 
 /* ---- by hand --------------------------------------------------------------------------------------------------- */
@@ -802,6 +862,8 @@ static gn_status render_view(frame *f, const view *v, uint32_t *q, uint32_t *tri
     gn_pixels region;
     gn_window window = {0, 0, v->settings.width, v->settings.height};
     gn_status status = frame_start(f, &v->scene, &v->settings);
+    if (status == GN_OK && v->settings.warp)
+        status = warp_frame(f, &v->light, &v->camera, &v->grid);
     if (status == GN_OK)
         status = gn_light_pass(f->context, &v->light);
     if (status == GN_OK)
@@ -842,8 +904,8 @@ static void a_bias_of_nothing_is_no_receiver(uint64_t cases)
             point p =
                 find_point(biased.context, (int32_t)(i % v.settings.width), (int32_t)(i / v.settings.width), q[i]);
             if (p.where == ON_MAP && triangle[i] != GN_NO_TRIANGLE &&
-                (p.beside || p.u < 0 || p.v < 0 || p.u >> p.bits >= v.settings.map_width ||
-                 p.v >> p.bits >= v.settings.map_height)) {
+                (p.beside || p.u < 0 || p.v < 0 || p.u >> p.bits >= fine_size(biased.context, v.settings.map_width) ||
+                 p.v >> p.bits >= fine_size(biased.context, v.settings.map_height))) {
                 beside++; /* on its ray but not on its triangle (gn_shade.h) */
                 continue;
             }

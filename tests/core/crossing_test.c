@@ -3,10 +3,12 @@
  * edges and of loose triangles: no pixel farther from the edge than a crossing is rounded may be wrong, with every
  * receiver. The whole map against a slow twin: every edge with every side between two texels, in rationals of 128 bits,
  * the caster's side by where its triangle lies; and the same map whatever the order of triangles, objects, regions and
- * workers, and whatever the surface. Cases: 1000 scenes, fewer in slower builds, or GNOMON_CASES. */
+ * workers, and whatever the surface. Half of all maps are warped: their columns and rows are of any width. Cases: 1000
+ * scenes, fewer in slower builds, or GNOMON_CASES. */
 #include "gn_cascade.h"
 #include "gn_drawing.h"
 #include "mesh_edges.h"
+#include "warped.h"
 
 __extension__ typedef __int128 exact;
 
@@ -322,6 +324,7 @@ typedef struct world {
     gn_light light;
     gn_settings settings;
     int32_t across, up; /* the map's size, world units */
+    tables grid;        /* with settings.warp */
 } world;
 
 /* A coordinate about the map: anywhere, on texels' centres, on their borders. */
@@ -371,7 +374,8 @@ static void random_shape(shape *s, const world *w)
 static void random_world(world *w)
 {
     memset(w, 0, sizeof *w);
-    int32_t width = between(2, 24), height = between(2, 24);
+    int warped = between(0, 1); /* of powers of two: a world unit is so many fine texels */
+    int32_t width = warped ? 8 << between(0, 1) : between(2, 24), height = warped ? 8 << between(0, 1) : between(2, 24);
     w->across = 256 * width;
     w->up = 256 * height;
     w->light = grid_light((uint32_t)width, (uint32_t)height);
@@ -380,7 +384,10 @@ static void random_world(world *w)
     for (uint32_t i = 0; i < w->scene.object_count; i++) {
         if (i == 0 && between(0, 1)) { /* a ground */
             w->shapes[i] = shape_new(0);
-            add_level(&w->shapes[i], -9000, -9000, 20000, 20000, -65000, 1);
+            if (warped) /* within the guard band: clipped edges are rounded */
+                add_level(&w->shapes[i], -2000, -2000, w->across + 2000, w->up + 2000, -65000, 1);
+            else
+                add_level(&w->shapes[i], -9000, -9000, 20000, 20000, -65000, 1);
         } else {
             random_shape(&w->shapes[i], w);
         }
@@ -395,6 +402,8 @@ static void random_world(world *w)
     w->settings.surface = GN_CONSTANT;
     w->settings.cull = GN_CULL_NONE;
     w->settings.layers = GN_LAYERS_FIRST;
+    w->settings.warp = warped ? &gn_rectilinear : 0;
+    random_tables(&w->grid, &w->settings);
 }
 
 static void free_world(world *w)
@@ -405,7 +414,7 @@ static void free_world(world *w)
 
 /* ---- the map by a slow twin -------------------------------------------------------------------------------------- */
 
-/* On the map: 1/256 texel from the centre of texel (0, 0), y down; z: 32 bits. */
+/* On the map: 1/256 texel from the centre of texel (0, 0), y down, of a warped map in fine texels; z: 32 bits. */
 typedef struct spot {
     int64_t x, y, z;
 } spot;
@@ -413,7 +422,9 @@ typedef struct spot {
 static spot spot_of(const world *w, const shape *s, uint32_t half)
 {
     const int32_t *v = corner_of(s, half);
-    spot p = {v[0] - 128, w->up - v[1] - 128, -65536 * (int64_t)v[2] + 32768};
+    int64_t times_x = w->settings.warp ? 256 * GN_FINE / w->across : 1;
+    int64_t times_y = w->settings.warp ? 256 * GN_FINE / w->up : 1;
+    spot p = {times_x * v[0] - 128, times_y * (w->up - v[1]) - 128, -65536 * (int64_t)v[2] + 32768};
     return p;
 }
 
@@ -434,11 +445,19 @@ typedef struct twin {
     uint64_t edges, written, hidden, lost, ties;
 } twin;
 
+/* Where the centre of a column or row lies, as spots do. */
+static int64_t centre_at(const twin *t, int32_t i, int of_row)
+{
+    const tables *grid = &t->w->grid;
+    return 256 * (int64_t)(!t->w->settings.warp ? i : of_row ? grid->rows[i] : grid->columns[i]);
+}
+
 /* One edge and one side between two texels: from (i, j) to the right or down. across: what runs along the side, 1/256
  * texel. The edge meets a texel's centre: the centre is a little to the right, and far less down. */
 static void try_side(twin *t, spot a, spot b, spot third, int32_t i, int32_t j, int down)
 {
-    int64_t line = 256 * (int64_t)(down ? i : j), start = 256 * (int64_t)(down ? j : i);
+    int64_t line = centre_at(t, down ? i : j, !down), start = centre_at(t, down ? j : i, down);
+    int64_t side = centre_at(t, (down ? j : i) + 1, down) - start;
     int64_t a_line = down ? a.x : a.y, b_line = down ? b.x : b.y, a_along = down ? a.y : a.x,
             b_along = down ? b.y : b.x;
     if ((a_line <= line) == (b_line <= line))
@@ -452,10 +471,10 @@ static void try_side(twin *t, spot a, spot b, spot third, int32_t i, int32_t j, 
         z = -z;
     }
     int falls = down && (b.x - a.x > 0) == (b.y - a.y > 0) && a.y != b.y; /* to the right the edge is lower */
-    t->ties += n == 0 || n == 256 * d;
-    if (falls ? n < 0 || n >= 256 * d : n <= 0 || n > 256 * d)
+    t->ties += n == 0 || n == side * d;
+    if (falls ? n < 0 || n >= side * d : n <= 0 || n > side * d)
         return;
-    int64_t code = (int64_t)((2 * 16 * n + 256 * d) / (2 * 256 * d)); /* floor(16 p + 1/2) */
+    int64_t code = (int64_t)((2 * 16 * n + side * d) / (2 * side * d)); /* floor(16 p + 1/2) */
     code = code < 1 ? 1 : code > 15 ? 15 : code;
     /* which of the two is where the triangle lies: compared across the edge's line, half-way from crossing to centre */
     exact of_third = (exact)(b.x - a.x) * (third.y - a.y) - (exact)(b.y - a.y) * (third.x - a.x);
@@ -509,6 +528,19 @@ static void try_edges(twin *t, const shape *s)
             try_edge(t, s, half);
 }
 
+/* The view pass of a warped map, and its tables. */
+static gn_status warp_world(frame *f, const world *w)
+{
+    static const int32_t up[3] = {0, 1, 0};
+    int32_t eye[3] = {w->across / 2, w->up / 2, 6000}, target[3] = {w->across / 2, w->up / 2, 0};
+    gn_camera camera;
+    gn_status status = gn_look_at(&camera, eye, target, up);
+    if (status != GN_OK || !w->settings.warp)
+        return status;
+    status = gn_perspective(&camera, GN_DEGREES(50), 400, 1 << 20);
+    return status == GN_OK ? warp_frame(f, &w->light, &camera, &w->grid) : status;
+}
+
 /* The nearest depths, by a light pass that draws nothing else. */
 static gn_status find_depths(const world *w, gn_depth *depths)
 {
@@ -516,6 +548,8 @@ static gn_status find_depths(const world *w, gn_depth *depths)
     gn_settings settings = w->settings;
     settings.reconstruction = 0;
     gn_status status = frame_start(&f, &w->scene, &settings);
+    if (status == GN_OK)
+        status = warp_world(&f, w);
     if (status == GN_OK)
         status = gn_light_pass(f.context, &w->light);
     for (uint32_t i = 0; status == GN_OK && i < (uint32_t)settings.map_width * settings.map_height; i++)
@@ -587,6 +621,8 @@ static void compare_map(const world *w, const twin *t, uint64_t n, const char *o
     uint64_t crossed = 0;
     gn_status status = frame_start(&f, &w->scene, &w->settings);
     if (status == GN_OK)
+        status = warp_world(&f, w);
+    if (status == GN_OK)
         status = light_in_steps(&f, &w->light);
     const uint8_t *map = status == GN_OK ? gn_crossing_map(f.context, &stride) : 0;
     int32_t wrong = map ? -1 : 0;
@@ -596,9 +632,10 @@ static void compare_map(const world *w, const twin *t, uint64_t n, const char *o
         if (got != t->bytes[i] && wrong < 0) {
             wrong = i;
             if (count->failures < 5)
-                note("scene %llu, %s, map %dx%d, surface %d, %d rows: texel (%d, %d): %02x, expected %02x",
-                     (unsigned long long)n, order, (int)t->width, (int)t->height, (int)w->settings.surface,
-                     (int)w->settings.map_rows, (int)(i % t->width), (int)(i / t->width), got, t->bytes[i]);
+                note("scene %llu, %s, %smap %dx%d, surface %d, %d rows: texel (%d, %d): %02x, expected %02x",
+                     (unsigned long long)n, order, w->settings.warp ? "warped " : "", (int)t->width, (int)t->height,
+                     (int)w->settings.surface, (int)w->settings.map_rows, (int)(i % t->width), (int)(i / t->width), got,
+                     t->bytes[i]);
         }
     }
     if (!map && count->failures < 5)
@@ -626,7 +663,7 @@ static void compare_map(const world *w, const twin *t, uint64_t n, const char *o
 static void maps_are_the_twins_in_any_order(uint64_t cases)
 {
     map_count count = {0};
-    uint64_t edges = 0, written = 0, hidden = 0, lost = 0, ties = 0;
+    uint64_t edges = 0, written = 0, hidden = 0, lost = 0, ties = 0, on_warped = 0;
     for (uint64_t n = 0; n < cases && count.failures < 5; n++) {
         static gn_depth depths[24 * 24];
         static twin t;
@@ -646,6 +683,7 @@ static void maps_are_the_twins_in_any_order(uint64_t cases)
         /* pairs of more than two triangles on an edge may change with their order, and their sums with them */
         stir(&w);
         uint64_t before = t.written;
+        on_warped += w.settings.warp ? before : 0;
         memset(t.bytes, 0, sizeof t.bytes);
         t.edges = t.written = 0;
         for (uint32_t i = 0; i < w.scene.object_count; i++)
@@ -662,9 +700,12 @@ static void maps_are_the_twins_in_any_order(uint64_t cases)
        "every byte is the twin's, as made and in another order of objects, triangles, regions and workers: %llu maps, "
        "%llu regions, %llu edges",
        (unsigned long long)count.maps, (unsigned long long)count.regions, (unsigned long long)edges);
-    ok(written > 20 * cases && hidden > cases && lost > cases && ties > cases,
-       "%llu crossings; %llu behind the texel beyond, %llu more than one on a side, %llu through centres",
-       (unsigned long long)written, (unsigned long long)hidden, (unsigned long long)lost, (unsigned long long)ties);
+    ok(written > 20 * cases && hidden > cases && lost > cases && ties > cases && on_warped > 10 * cases &&
+           on_warped < written - 10 * cases,
+       "%llu crossings, %llu of them on warped maps; %llu behind the texel beyond, %llu more than one on a side, %llu "
+       "through centres",
+       (unsigned long long)written, (unsigned long long)on_warped, (unsigned long long)hidden, (unsigned long long)lost,
+       (unsigned long long)ties);
 }
 
 /* ---- straight edges ---------------------------------------------------------------------------------------------- */
@@ -680,6 +721,7 @@ typedef struct edge_scene {
     gn_settings settings;
     int64_t x, y, a, b; /* on the edge, and its direction; the caster is left of it */
     int32_t eye[2], pixel, texels;
+    tables grid; /* with settings.warp */
 } edge_scene;
 
 static void random_direction(int64_t *a, int64_t *b)
@@ -765,6 +807,8 @@ static gn_status build_edge(edge_scene *e, int loose)
     e->settings.format = GN_NO_COLOUR;
     e->settings.mask = 1;
     e->settings.reconstruction = &gn_crossings;
+    e->settings.warp = between(0, 1) ? &gn_rectilinear : 0;
+    random_tables(&e->grid, &e->settings);
     int32_t eye[3] = {e->eye[0], e->eye[1], EYE}, target[3] = {e->eye[0], e->eye[1], EYE - 1000};
     gn_status status = gn_look_at(&e->camera, eye, target, up);
     return status == GN_OK ? gn_orthographic(&e->camera, e->pixel * (IMAGE / 2), 1, 60000) : status;
@@ -773,23 +817,42 @@ static gn_status build_edge(edge_scene *e, int loose)
 typedef struct edge_count {
     unsigned failures;
     uint64_t lit, shadowed, skipped;
-    int64_t worst; /* 1/4096 texel */
+    int64_t worst, worst_warped; /* 1/4096 texel */
 } edge_count;
 
-/* A crossing is off by 1/16 texel along its side, so a line between two is nowhere farther from the edge than that
- * along the axis in which the edge is closer; a clipped edge by the rounding of its ends more, and a pixel's place is
- * rounded along both axes. All in 1/256 texel: 16, 1 and 1. Returns the pixels that are wrong and farther. */
+/* The width, or height, of the cell that holds a place of a warped map, 1/256 fine texel, where it may be the next
+ * one's the larger of both; 0: there is none. */
+static int64_t find_width(const edge_scene *e, const uint16_t *places, int64_t at)
+{
+    int64_t width = 0;
+    for (int32_t i = 0; i + 1 < e->texels; i++) {
+        int64_t from = 256 * (int64_t)places[i] + 128, to = 256 * (int64_t)places[i + 1] + 128;
+        if (at >= from - 2 && at <= to + 2 && (to - from) / 256 > width)
+            width = (to - from) / 256;
+    }
+    return at < 256 * (int64_t)places[0] + 128 || at > 256 * (int64_t)places[e->texels - 1] + 128 ? 0 : width;
+}
+
+/* A crossing is off by 1/16 of its side, so a line between two is nowhere farther from the edge than that along one of
+ * the axes; a clipped edge by the rounding of its ends more, and a pixel's place is rounded along both axes. All in
+ * 1/256 texel: 16, 1 and 1. On a warped map a place is rounded twice, and vertices by half of 1/256 fine texel. Returns
+ * the pixels that are wrong and farther. */
 static uint64_t judge_edge(const edge_scene *e, const frame *f, edge_count *count)
 {
     uint64_t wrong = 0;
-    int64_t larger = magnitude(e->a) > magnitude(e->b) ? magnitude(e->a) : magnitude(e->b);
-    int64_t limit = 2 * (17 * larger + magnitude(e->a) + magnitude(e->b));
+    const int64_t size = 512 * e->texels; /* twice the map's */
     for (int i = 0; i < IMAGE * IMAGE; i++) {
         /* twice the place on the ground */
         int64_t x = 2 * (int64_t)e->eye[0] + (int64_t)(2 * (i % IMAGE) + 1 - IMAGE) * e->pixel;
         int64_t y = 2 * (int64_t)e->eye[1] - (int64_t)(2 * (i / IMAGE) + 1 - IMAGE) * e->pixel;
-        /* not beyond the cells */
-        if (x < 256 || y < 256 || x >= 512 * e->texels - 256 || y >= 512 * e->texels - 256) {
+        int64_t width = 1, height = 1, fine = e->settings.warp ? GN_FINE : e->texels;
+        if (e->settings.warp) {
+            width = find_width(e, e->grid.columns, floor_divide(x * GN_FINE * 256, size));
+            height = find_width(e, e->grid.rows, floor_divide((size - y) * GN_FINE * 256, size));
+        } else if (x < 256 || y < 256 || x >= size - 256 || y >= size - 256) {
+            width = 0;
+        }
+        if (!width || !height) { /* beyond the cells */
             count->skipped++;
             continue;
         }
@@ -799,9 +862,13 @@ static uint64_t judge_edge(const edge_scene *e, const frame *f, edge_count *coun
         count->shadowed += got == 0;
         if (got == expected)
             continue;
-        int64_t distance = (magnitude(side) * 8 + larger - 1) / larger; /* 1/4096 texel */
-        count->worst = distance > count->worst ? distance : count->worst;
-        wrong += magnitude(side) > limit;
+        int64_t across = magnitude(e->b) * width, down = magnitude(e->a) * height;
+        int64_t larger = across > down ? across : down;
+        int64_t distance = (magnitude(side) * fine * 8 + larger * e->texels - 1) / (larger * e->texels); /* 1/4096 */
+        int64_t limit = 2 * (17 * larger + (e->settings.warp ? 3 : 1) * (across + down)) * e->texels;
+        int64_t *worst = e->settings.warp ? &count->worst_warped : &count->worst;
+        *worst = distance > *worst ? distance : *worst;
+        wrong += magnitude(side) * fine > limit;
     }
     return wrong;
 }
@@ -817,6 +884,8 @@ static void straight_edges_are_where_they_are(uint64_t cases, int loose)
         gn_status status = build_edge(&e, loose);
         if (status == GN_OK)
             status = frame_start(&f, &e.scene, &e.settings);
+        if (status == GN_OK && e.settings.warp)
+            status = warp_frame(&f, &e.light, &e.camera, &e.grid);
         if (status == GN_OK)
             status = frame_render(&f, &e.light, &e.camera);
         uint64_t wrong = status == GN_OK ? judge_edge(&e, &f, &count) : 0;
@@ -833,6 +902,7 @@ static void straight_edges_are_where_they_are(uint64_t cases, int loose)
         }
         count.failures += f.block && !frame_end(&f);
         e.settings.reconstruction = 0;
+        e.settings.warp = 0;
         memset(&f, 0, sizeof f);
         if (status == GN_OK && n % 8 == 0 && frame_start(&f, &e.scene, &e.settings) == GN_OK &&
             frame_render(&f, &e.light, &e.camera) == GN_OK)
@@ -842,10 +912,11 @@ static void straight_edges_are_where_they_are(uint64_t cases, int loose)
         free_shape(&e.caster);
     }
     ok(!count.failures,
-       "straight edges of %s: no pixel beyond 1/16 texel and rounding, %ld/4096 at most (%ld without crossings)",
-       loose ? "loose triangles" : "a mesh", (long)count.worst, (long)plain.worst);
+       "straight edges of %s: no pixel beyond 1/16 texel and rounding, %ld/4096 at most (%ld without crossings), "
+       "on warped maps %ld/4096 of a cell",
+       loose ? "loose triangles" : "a mesh", (long)count.worst, (long)plain.worst, (long)count.worst_warped);
     ok(count.lit > 500 * cases && count.shadowed > 500 * cases && beyond_without > 10 * cases && count.worst > 128 &&
-           (!GN_STATISTICS || decided > 100 * cases),
+           count.worst_warped > 128 && (!GN_STATISTICS || decided > 100 * cases),
        "%llu pixels lit, %llu shadowed, %llu decided by crossings; without them %llu are wrong",
        (unsigned long long)count.lit, (unsigned long long)count.shadowed, (unsigned long long)decided,
        (unsigned long long)beyond_without);
@@ -858,6 +929,7 @@ static void no_depth_is_kept_with_a_crossing(void)
     world w;
     gn_plan plain, crossings, silhouettes;
     random_world(&w);
+    w.settings.warp = 0;
     w.settings.map_width = 64;
     w.settings.map_height = 32;
     w.settings.map_rows = 16;
@@ -884,6 +956,7 @@ static void maps_are_asked_for_by_their_kind(void)
     frame f;
     uint32_t stride = 77;
     random_world(&w);
+    w.settings.warp = 0;
     int good = frame_start(&f, &w.scene, &w.settings) == GN_OK && !gn_crossing_map(f.context, &stride) &&
                gn_light_pass(f.context, &w.light) == GN_OK && gn_crossing_map(f.context, &stride) &&
                stride == w.settings.map_width && !gn_silhouette_map(f.context, &stride);

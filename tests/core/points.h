@@ -26,6 +26,12 @@ static uint32_t expression_at(const gn_linear *l, int32_t x, int32_t y, uint32_t
     return a + (uint32_t)quotient;
 }
 
+/* Columns (or rows) that points count in: the map's, or a warped map's fine ones. */
+static int64_t fine_size(const gn_context *context, int32_t size)
+{
+    return context->grid ? GN_FINE : size;
+}
+
 static point find_spot_point(const gn_context *context, const uint32_t value[3])
 {
     const gn_shading *s = &context->shading;
@@ -35,8 +41,8 @@ static point find_spot_point(const gn_context *context, const uint32_t value[3])
         return p;
     uint32_t nearness = gn_divide_place(s, &left, &top, value[2]);
     p.where = ON_MAP; /* its width and height are 2^30 */
-    p.u = (int64_t)((uint64_t)left * context->settings.map_width / 4096);
-    p.v = (int64_t)((uint64_t)top * context->settings.map_height / 4096);
+    p.u = (int64_t)((uint64_t)left * (uint64_t)fine_size(context, context->settings.map_width) / 4096);
+    p.v = (int64_t)((uint64_t)top * (uint64_t)fine_size(context, context->settings.map_height) / 4096);
     uint64_t behind = ((UINT64_C(1) << 30) - nearness) * context->light_view.depth_scale;
     uint64_t z = GN_DEPTH_GUARD + (behind >> context->light_view.depth_shift);
     p.z = z > 0x7fffffff ? 0xfffffffeu : (uint32_t)(2 * z);
@@ -56,8 +62,8 @@ static point find_sun_point(const gn_context *context, const uint32_t value[3])
     }
     p.beside = s->trusted && z >= range;
     if (!s->trusted) {
-        if (p.u < 0 || p.v < 0 || value[2] >> 31 || p.u >= (int64_t)settings->map_width << p.bits ||
-            p.v >= (int64_t)settings->map_height << p.bits)
+        if (p.u < 0 || p.v < 0 || value[2] >> 31 || p.u >= fine_size(context, settings->map_width) << p.bits ||
+            p.v >= fine_size(context, settings->map_height) << p.bits)
             p.where = BESIDE_LIT;
         else if (z >= range) /* behind the box */
             z = range - 1;

@@ -31,21 +31,30 @@ static int is_on(vector ray, vector v)
     return cross(ray, v) == 0 && ray.x * v.x + ray.y * v.y > 0;
 }
 
+/* Widths of the cell before, of the cell and of the one after it, and so of heights. */
+typedef struct cell_sizes {
+    int64_t width[3], height[3];
+} cell_sizes;
+
 /* The quadrant of a place, 1 right + 2 below. cells: the bytes of the cell itself and of those right of it, below it,
  * left of it and above it. x, y: in 2^-bits texel from the cell's upper left corner. On the lines left and right a
  * place is the lower texel's, on those up and down the right one's, in the point the lower right one's; *line: whether
- * it is on one. */
-static TAP_UNUSED int find_region(const uint8_t cells[5], int bits, int64_t x, int64_t y, int *line)
+ * it is on one. Lines are straight where the cells are as wide and high as their sizes. */
+static int find_region_of(const uint8_t cells[5], const cell_sizes *sizes, int bits, int64_t x, int64_t y, int *line)
 {
     static const int8_t across[4] = {1, 0, -1, 0}, down[4] = {0, 1, 0, -1};
     static const int8_t quadrants[4] = {3, 2, 0, 1}; /* behind the lines right, down, left, up */
     static const int8_t on_line[4] = {3, 3, 2, 1};
-    vector at = {cells[0] & 15, cells[0] >> 4}, v, ray[5], corner[4];
-    v.x = x - (at.x << (bits - 4));
-    v.y = y - (at.y << (bits - 4));
+    int64_t width = sizes->width[1], height = sizes->height[1];
+    vector at = {width * (cells[0] & 15), height * (cells[0] >> 4)}, v, ray[5], corner[4];
+    v.x = width * x - (at.x << (bits - 4));
+    v.y = height * y - (at.y << (bits - 4));
     for (int i = 0; i < 4; i++) {
-        vector neighbour = {16 * across[i] + (cells[i + 1] & 15), 16 * down[i] + (cells[i + 1] >> 4)};
-        vector to = {16 * (quadrants[i] & 1), 16 * (quadrants[i] >> 1)};
+        vector neighbour = {sizes->width[1 + across[i]] * (cells[i + 1] & 15),
+                            sizes->height[1 + down[i]] * (cells[i + 1] >> 4)};
+        vector to = {16 * width * (quadrants[i] & 1), 16 * height * (quadrants[i] >> 1)};
+        neighbour.x += 16 * (across[i] < 0 ? -sizes->width[0] : across[i] * width);
+        neighbour.y += 16 * (down[i] < 0 ? -sizes->height[0] : down[i] * height);
         ray[i] = apart(neighbour, at);
         corner[i] = apart(to, at);
     }
@@ -61,6 +70,13 @@ static TAP_UNUSED int find_region(const uint8_t cells[5], int bits, int64_t x, i
         if (is_between(ray[i], v, corner[i]) || is_on(corner[i], v) || is_between(corner[i], v, ray[i + 1]))
             return quadrants[i];
     return -1;
+}
+
+/* The same of cells of one size. */
+static TAP_UNUSED int find_region(const uint8_t cells[5], int bits, int64_t x, int64_t y, int *line)
+{
+    static const cell_sizes even = {{1, 1, 1}, {1, 1, 1}};
+    return find_region_of(cells, &even, bits, x, y, line);
 }
 
 /* One of the four places about one, whose answers a smooth border counts: a turned square of 1/8 texel, held in the

@@ -10,6 +10,7 @@
 #include "gn_segment.h"
 #include "mesh_edges.h"
 #include "quadrants.h"
+#include "warped.h"
 
 __extension__ typedef __int128 exact;
 
@@ -37,6 +38,8 @@ typedef struct patch {
     uint8_t dark[MOST_SIDE * MOST_SIDE];
     gn_depth texels[MOST_SIDE * (MOST_SIDE + PADDING)];
     gn_wide_plane plane;
+    uint16_t columns[MOST_SIDE], rows[MOST_SIDE]; /* where texels lie, of warped maps */
+    int warped;
     gn_lookup lookup;
 } patch;
 
@@ -48,7 +51,9 @@ static void set_lookup(patch *p)
                    .last_row = (uint32_t)p->height - 1,
                    .bits = (uint32_t)p->bits,
                    .whole = gn_silhouettes.whole,
-                   .silhouettes = p->cells};
+                   .silhouettes = p->cells,
+                   .columns = p->warped ? p->columns : 0,
+                   .rows = p->warped ? p->rows : 0};
     p->lookup = l;
 }
 
@@ -60,8 +65,22 @@ static void set_texel(patch *p, int32_t column, int32_t row, int dark)
     p->texels[row * (p->width + PADDING) + column] = (gn_depth)((gn_depth)(z >> (32 - GN_DEPTH_BITS)) - (gn_depth)dark);
 }
 
+/* Cells of one fine texel, of powers of two, and of any width. */
+static void random_places(uint16_t *places, int32_t count)
+{
+    int32_t at = between(0, 9);
+    for (int32_t i = 0; i < count; i++) {
+        int how = between(0, 3);
+        places[i] = (uint16_t)at;
+        at += how == 0 ? 1 : how == 1 ? 1 << between(0, 9) : between(1, how == 2 ? 9 : 560);
+    }
+}
+
 static void random_patch(patch *p)
 {
+    p->warped = between(0, 1);
+    random_places(p->columns, MOST_SIDE);
+    random_places(p->rows, MOST_SIDE);
     p->width = between(2, MOST_SIDE);
     p->height = between(2, MOST_SIDE);
     p->bits = between(8, 18);
@@ -77,12 +96,38 @@ static void random_patch(patch *p)
     set_lookup(p);
 }
 
-/* A cell's point from the upper left corner of another, in 1/16 texel. Beyond the map there are centres. */
+/* Width or height of a cell in fine texels; beyond the map's cells that of the outermost. */
+static int64_t size_of(const patch *p, const uint16_t *places, int32_t cell, int32_t count)
+{
+    cell = cell < 0 ? 0 : cell < count - 1 ? cell : count - 2;
+    return p->warped ? places[cell + 1] - places[cell] : 1;
+}
+
+static int64_t width_of(const patch *p, int32_t column)
+{
+    return size_of(p, p->columns, column, p->width);
+}
+
+static int64_t height_of(const patch *p, int32_t row)
+{
+    return size_of(p, p->rows, row, p->height);
+}
+
+/* The byte of a cell. Beyond the map there are centres. */
+static uint8_t byte_of(const patch *p, int32_t column, int32_t row)
+{
+    int beyond = column < 0 || row < 0 || column >= p->width - 1 || row >= p->height - 1;
+    return beyond ? CENTRE : p->cells[row * p->width + column];
+}
+
+/* The point of a neighbour from the upper left corner of a cell, in 1/16 texel, of warped maps in 1/16 fine texel. */
 static vector point_from(const patch *p, int32_t column, int32_t row, int32_t across, int32_t down)
 {
-    int32_t c = column + across, r = row + down;
-    uint32_t byte = c < 0 || r < 0 || c >= p->width - 1 || r >= p->height - 1 ? CENTRE : p->cells[r * p->width + c];
-    vector v = {16 * across + (int64_t)(byte & 15), 16 * down + (int64_t)(byte >> 4)};
+    uint8_t byte = byte_of(p, column + across, row + down);
+    int64_t left = across > 0 ? width_of(p, column) : across < 0 ? -width_of(p, column - 1) : 0;
+    int64_t top = down > 0 ? height_of(p, row) : down < 0 ? -height_of(p, row - 1) : 0;
+    vector v = {16 * left + width_of(p, column + across) * (byte & 15),
+                16 * top + height_of(p, row + down) * (byte >> 4)};
     return v;
 }
 
@@ -90,12 +135,14 @@ static vector point_from(const patch *p, int32_t column, int32_t row, int32_t ac
 static int find_quadrant(const patch *p, int32_t column, int32_t row, int64_t x, int64_t y, int *line)
 {
     uint8_t cells[5];
-    for (int i = 0; i < 5; i++) {
-        int32_t across = i == 1 ? 1 : i == 3 ? -1 : 0, down = i == 2 ? 1 : i == 4 ? -1 : 0;
-        vector point = point_from(p, column, row, across, down);
-        cells[i] = (uint8_t)((point.y - 16 * down) << 4 | (point.x - 16 * across));
+    cell_sizes sizes;
+    for (int i = 0; i < 5; i++)
+        cells[i] = byte_of(p, column + (i == 1) - (i == 3), row + (i == 2) - (i == 4));
+    for (int i = 0; i < 3; i++) {
+        sizes.width[i] = width_of(p, column + i - 1);
+        sizes.height[i] = height_of(p, row + i - 1);
     }
-    return find_region(cells, p->bits, x, y, line);
+    return find_region_of(cells, &sizes, p->bits, x, y, line);
 }
 
 /* A place in a cell: anywhere, on a line, or about one. */
@@ -108,8 +155,8 @@ static vector random_place(const patch *p, int32_t column, int32_t row)
     vector from = point_from(p, column, row, 0, 0);
     vector to = point_from(p, column, row, side == 0 ? 1 : side == 2 ? -1 : 0, side == 1 ? 1 : side == 3 ? -1 : 0);
     int64_t part = between(0, 16), unit = (int64_t)1 << (p->bits - 8);
-    place.x = (16 * from.x + part * (to.x - from.x)) * unit;
-    place.y = (16 * from.y + part * (to.y - from.y)) * unit;
+    place.x = floor_divide((16 * from.x + part * (to.x - from.x)) * unit, width_of(p, column));
+    place.y = floor_divide((16 * from.y + part * (to.y - from.y)) * unit, height_of(p, row));
     if (between(0, 1)) {
         place.x += between(-1, 1);
         place.y += between(-1, 1);
@@ -160,7 +207,7 @@ static uint32_t smooth_of(const patch *p, int32_t column, int32_t row, vector pl
 static void quadrants_are_figure_5(uint64_t cases)
 {
     static patch p;
-    uint64_t seen[4] = {0}, on_lines = 0, open = 0, partly = 0;
+    uint64_t seen[4] = {0}, on_lines = 0, open = 0, partly = 0, warped = 0, on_warped = 0;
     unsigned failures = 0;
     for (uint64_t n = 0; n < cases && failures < 5; n++) {
         int line;
@@ -189,16 +236,21 @@ static void quadrants_are_figure_5(uint64_t cases)
         if (region >= 0)
             seen[region]++;
         on_lines += (uint64_t)line;
+        warped += (uint64_t)p.warped;
+        on_warped += (uint64_t)(p.warped && line);
         open += (uint64_t)!alike;
         partly += of_four > 0 && of_four < 4;
     }
     ok(!failures, "quadrants are figure 5's eight regions, by angles: %llu places, %llu in cells whose texels differ",
        (unsigned long long)cases, (unsigned long long)open);
     ok(seen[0] > cases / 10 && seen[1] > cases / 10 && seen[2] > cases / 10 && seen[3] > cases / 10 &&
-           on_lines > cases / 10 && open > cases / 2 && partly > cases / 10,
-       "%llu, %llu, %llu, %llu in the four quadrants; %llu on a line; %llu smoothed", (unsigned long long)seen[0],
-       (unsigned long long)seen[1], (unsigned long long)seen[2], (unsigned long long)seen[3],
-       (unsigned long long)on_lines, (unsigned long long)partly);
+           on_lines > cases / 10 && open > cases / 2 && partly > cases / 10 && warped > cases / 4 &&
+           on_warped > cases / 50,
+       "%llu, %llu, %llu, %llu in the four quadrants; %llu on a line; %llu smoothed; %llu on warped maps, %llu of them "
+       "on a line",
+       (unsigned long long)seen[0], (unsigned long long)seen[1], (unsigned long long)seen[2],
+       (unsigned long long)seen[3], (unsigned long long)on_lines, (unsigned long long)partly,
+       (unsigned long long)warped, (unsigned long long)on_warped);
 }
 
 /* Beyond the centres of the outer texels there is no cell: the nearest texel's answer. */
@@ -266,11 +318,14 @@ static void check_sides(patch *p, uint64_t *sides, uint64_t *slanted, unsigned *
                 int64_t run = down ? to.x - from.x : to.y - from.y, rise = down ? to.y - from.y : to.x - from.x;
                 int64_t start = down ? from.x : from.y, at = down ? from.y : from.x;
                 int64_t expected[2], got[2];
+                /* of the cell, towards the neighbour and along the side, where both are alike */
+                int64_t size = down ? width_of(p, column) : height_of(p, row);
+                int64_t length = down ? height_of(p, row) : width_of(p, column);
                 for (int i = 0; i < 2; i++) {
                     /* in 1/16 of a place's unit: at + rise (place - start) / run, the first place beyond; a place on
                      * the line is below it, or right of it */
-                    int64_t n = (16 * (one - 1 + i) - start * one) * rise + at * one * run;
-                    expected[i] = -floor_divide(-n, 16 * run);
+                    int64_t n = (16 * (one - 1 + i) * size - start * one) * rise + at * one * run;
+                    expected[i] = -floor_divide(-n, 16 * run * length);
                     expected[i] = expected[i] < one ? expected[i] : one;
                     got[i] = find_split(p, column + (i ? across : 0), row + (i ? below : 0), i ? 0 : one - 1, down);
                 }
@@ -310,8 +365,9 @@ static void free_shape(shape *s)
 /* ---- straight edges ---------------------------------------------------------------------------------------------- */
 
 /* An offset is rounded to the nearest 1/16, but the last half of them to 15/16; the point is rounded down to 1/256
- * texel before; a place on the map to 1/256 as well. */
-enum { SIXTEENTH = 16, ROUNDING = 2, IMAGE = 96, MOST_POINTS = 44 };
+ * texel before; a place on the map to 1/256 as well. On a warped map a place is rounded once more from fine texels to
+ * texels, and vertices, which are not in whole parts of a fine texel, by half of 1/256. */
+enum { SIXTEENTH = 16, ROUNDING = 2, ROUNDING_WARPED = 2, IMAGE = 96, MOST_POINTS = 44 };
 
 typedef struct edge_scene {
     shape ground, caster;
@@ -324,6 +380,7 @@ typedef struct edge_scene {
     int32_t eye[2], pixel; /* where the camera stands; the width of a pixel on the ground */
     int32_t width;         /* of the map on the ground */
     int32_t rounding;      /* 1/256 texel */
+    tables grid;           /* with settings.warp */
     int far, test;         /* clipped; of the ways to test a pixel */
 } edge_scene;
 
@@ -463,8 +520,12 @@ static gn_status light_by_sun(edge_scene *e, int32_t texels)
     e->rounding = ROUNDING + (e->far ? 1 : 0);
     e->caster = shape_new(between(0, 1));
     int64_t piece = add_caster(e, texels, x, y, 0);
-    /* receivers other than the point know the plane that it lies in */
-    int32_t slant = e->settings.receiver ? 8000 : 0, across = between(-slant, slant);
+    /* receivers other than the point know the plane that it lies in; but that its depths differ by no more than the
+     * bias from one texel to the next, or all of them may vote a point of it dark */
+    int32_t slant = !e->settings.receiver ? 0
+                    : e->settings.warp    ? (e->test == 5 ? 0 : 500)
+                                          : 8000,
+            across = between(-slant, slant);
     add_ground(e, GROUND, across, between(-slant, slant));
     e->x = x;
     e->y = y;
@@ -511,9 +572,12 @@ static gn_status build_edge(edge_scene *e, int spot)
     e->settings.format = GN_NO_COLOUR;
     e->settings.mask = 1;
     e->settings.reconstruction = &gn_silhouettes;
-    e->test = choose_test(&e->settings);
+    e->test = choose_test(&e->settings); /* 5: plane bias, which takes the mean of unequal cells */
     random_direction(&e->a, &e->b);
+    e->settings.warp = between(0, 1) ? &gn_rectilinear : 0;
+    random_tables(&e->grid, &e->settings);
     gn_status status = spot ? light_by_lamp(e, texels) : light_by_sun(e, texels);
+    e->rounding += e->settings.warp ? ROUNDING_WARPED : 0;
     e->objects[0].mesh = &e->ground.mesh;
     e->objects[1].mesh = &e->caster.mesh;
     e->scene.objects = e->objects;
@@ -523,25 +587,45 @@ static gn_status build_edge(edge_scene *e, int spot)
 
 typedef struct edge_count {
     unsigned failures;
-    uint64_t scenes, lit, shadowed, far, solids, skipped;
-    int64_t worst; /* 1/4096 texel: of wrong pixels with silhouettes, from the edge */
+    uint64_t scenes, lit, shadowed, far, solids, skipped, warped;
+    int64_t worst, worst_warped; /* 1/4096 texel: of wrong pixels with silhouettes, from the edge */
 } edge_count;
 
-/* Pixels by the exact edge. A pixel's distance is along x and y: the least move along both that brings it onto the
- * edge. Points and places are rounded along x and y, so that is how far the edge may be off. Returns the wrong ones
- * beyond. */
+/* The cell of a place on the map, 2^-12 of its side, by where texels' centres lie; the widest of it and the cells
+ * beside it, whose points its lines lead to, 2^-12 as well. 0: the outer cells' lines lead to where the map knows
+ * nothing. */
+static int find_widest(const edge_scene *e, const uint16_t *places, int64_t at, int64_t *widest)
+{
+    int32_t texels = e->settings.map_width, cell = -1;
+    if (!e->settings.warp) {
+        *widest = 4096 / texels;
+        cell = (int32_t)floor_divide(at * texels, 4096);
+        return cell >= 2 && cell < texels - 2;
+    }
+    while (cell + 1 < texels && places[cell + 1] <= at - 1)
+        cell++;
+    if (cell < 2 || cell >= texels - 3)
+        return 0;
+    *widest = 0;
+    for (int32_t i = cell - 1; i <= cell + 1; i++)
+        *widest = places[i + 1] - places[i] > *widest ? places[i + 1] - places[i] : *widest;
+    return 1;
+}
+
+/* Pixels by the exact edge. A pixel's distance is along x and y: the least move along both, in shares of the cells'
+ * width and height, that brings it onto the edge. Points and places are rounded along x and y, so that is how far the
+ * edge may be off. Returns the wrong ones beyond. */
 static uint64_t judge_edge(const edge_scene *e, const frame *f, edge_count *count, int64_t *worst)
 {
     uint64_t wrong = 0;
-    int64_t texels = e->settings.map_width, from_corner = e->light.kind == GN_SPOT ? e->width : 0;
+    int64_t from_corner = e->light.kind == GN_SPOT ? e->width : 0, texels = e->settings.map_width;
     for (int i = 0; i < IMAGE * IMAGE; i++) {
         /* twice the place on the ground */
-        int64_t x = 2 * (int64_t)e->eye[0] + (int64_t)(2 * (i % IMAGE) + 1 - IMAGE) * e->pixel;
-        int64_t y = 2 * (int64_t)e->eye[1] - (int64_t)(2 * (i / IMAGE) + 1 - IMAGE) * e->pixel;
-        /* the outer cells' lines lead to where the map knows nothing */
-        int64_t u = floor_divide((x + from_corner) * texels, 2 * e->width);
-        int64_t v = floor_divide((y + from_corner) * texels, 2 * e->width);
-        if (u < 2 || v < 2 || u >= texels - 2 || v >= texels - 2) {
+        int64_t x = 2 * (int64_t)e->eye[0] + (int64_t)(2 * (i % IMAGE) + 1 - IMAGE) * e->pixel, width;
+        int64_t y = 2 * (int64_t)e->eye[1] - (int64_t)(2 * (i / IMAGE) + 1 - IMAGE) * e->pixel, height;
+        int64_t u = floor_divide((x + from_corner) * 4096, 2 * e->width);
+        int64_t v = floor_divide((2 * (int64_t)e->width - y - from_corner) * 4096, 2 * e->width);
+        if (!find_widest(e, e->grid.columns, u, &width) || !find_widest(e, e->grid.rows, v, &height)) {
             count->skipped++;
             continue;
         }
@@ -552,8 +636,11 @@ static uint64_t judge_edge(const edge_scene *e, const frame *f, edge_count *coun
         if (got == expected)
             continue;
         /* in 1/4096 texel, rounded up */
-        int64_t reach = 2 * (magnitude(e->a) + magnitude(e->b)) * e->width;
-        int64_t distance = (int64_t)(((exact)magnitude(side) * texels * 4096 + reach - 1) / reach);
+        exact reach =
+            e->settings.warp ? magnitude(e->a) * height + magnitude(e->b) * width : magnitude(e->a) + magnitude(e->b);
+        reach *= 2 * e->width;
+        int64_t distance =
+            (int64_t)(((exact)magnitude(side) * (e->settings.warp ? 4096 : texels) * 4096 + reach - 1) / reach);
         *worst = distance > *worst ? distance : *worst;
         wrong += distance > 16 * (SIXTEENTH + e->rounding);
     }
@@ -573,6 +660,8 @@ static void straight_edges_are_where_they_are(uint64_t cases, int spot)
         gn_status status = build_edge(&e, spot);
         if (status == GN_OK)
             status = frame_start(&f, &e.scene, &e.settings);
+        if (status == GN_OK && e.settings.warp)
+            status = warp_frame(&f, &e.light, &e.camera, &e.grid);
         if (status == GN_OK)
             status = frame_render(&f, &e.light, &e.camera);
         int64_t worst = 0;
@@ -582,12 +671,16 @@ static void straight_edges_are_where_they_are(uint64_t cases, int spot)
                  "pixels wrong, up to %ld/4096 texel off",
                  (unsigned long long)n, (int)status, (long)e.x, (long)e.y, (long)e.a, (long)e.b,
                  (int)e.settings.map_width, (int)e.pixel, e.test, (unsigned long long)wrong, (long)worst);
-        count.worst = worst > count.worst ? worst : count.worst;
+        if (e.settings.warp)
+            count.worst_warped = worst > count.worst_warped ? worst : count.worst_warped;
+        else
+            count.worst = worst > count.worst ? worst : count.worst;
+        count.warped += e.settings.warp != 0;
         count.scenes++;
         count.far += (uint64_t)e.far;
         count.solids += e.caster.mesh.closed;
         e.settings.reconstruction = 0;
-        if (status == GN_OK && n % 8 == 0 && frame_start(&plain, &e.scene, &e.settings) == GN_OK &&
+        if (status == GN_OK && n % 8 == 0 && !e.settings.warp && frame_start(&plain, &e.scene, &e.settings) == GN_OK &&
             frame_render(&plain, &e.light, &e.camera) == GN_OK) {
             edge_count ignored = {0};
             beyond_without += judge_edge(&e, &plain, &ignored, &without);
@@ -601,10 +694,12 @@ static void straight_edges_are_where_they_are(uint64_t cases, int spot)
     }
     ok(!count.failures,
        "straight edges under a %s: no pixel beyond 1/16 texel and rounding, %ld/4096 at most (%ld "
-       "without silhouettes), in %llu scenes",
-       spot ? "spot light" : "sun", (long)count.worst, (long)without, (unsigned long long)count.scenes);
+       "without silhouettes), in %llu scenes; %ld/4096 of a cell in %llu of warped maps",
+       spot ? "spot light" : "sun", (long)count.worst, (long)without, (unsigned long long)(count.scenes - count.warped),
+       (long)count.worst_warped, (unsigned long long)count.warped);
     ok(count.lit > 1000 * cases && count.shadowed > 1000 * cases && beyond_without > 10 * cases &&
-           count.worst > 16 * 8 && (spot || (count.far > cases / 8 && count.solids > cases / 4)),
+           count.worst > 16 * 8 && count.worst_warped > 16 * 8 && count.warped > cases / 4 &&
+           (spot || (count.far > cases / 8 && count.solids > cases / 4)),
        "%llu pixels lit, %llu shadowed, %llu at the map's border; %llu solids, %llu edges clipped; without silhouettes "
        "%llu pixels are wrong",
        (unsigned long long)count.lit, (unsigned long long)count.shadowed, (unsigned long long)count.skipped,
@@ -622,6 +717,7 @@ typedef struct crowd {
     gn_scene scene;
     gn_light light;
     gn_settings settings;
+    tables grid; /* with settings.warp */
 } crowd;
 
 /* How a scene's places are chosen. */
@@ -759,6 +855,8 @@ static gn_status random_crowd(crowd *c)
     c->settings.bias.value = 1 << 16;
     c->settings.receiver = between(0, 1) ? &gn_virtual : 0;
     c->settings.reconstruction = between(0, 3) ? &gn_silhouettes : &gn_silhouettes_smooth;
+    c->settings.warp = between(0, 1) ? &gn_rectilinear : 0;
+    random_tables(&c->grid, &c->settings);
     return status;
 }
 
@@ -777,7 +875,7 @@ typedef struct twin_cell {
 typedef struct twin {
     twin_cell cells[TWIN_SIDE * TWIN_SIDE];
     gn_depth texels[TWIN_SIDE * TWIN_SIDE]; /* the nearest layer, before it is resolved */
-    uint32_t reach;                         /* four texels at 45 degrees */
+    int64_t reach; /* four texels at 45 degrees; of a warped map, times a cell's width of fine texels */
     uint64_t edges, points, hidden, within, contested, apart, clipped;
 } twin;
 
@@ -798,10 +896,19 @@ static int facing_of(const gn_light *light, const gn_object *object, uint32_t tr
     return volume > 0 ? 1 : volume < 0 ? -1 : 0;
 }
 
-/* Does a segment touch a closed cell? Two convex sets do unless an axis parts them. */
-static int touches(const gn_vertex end[2], int64_t column, int64_t row)
+/* A texel's centre, of a warped map in fine texels. */
+static gn_vertex centre_of(const crowd *c, int32_t column, int32_t row)
 {
-    int64_t left = 256 * column + 128, top = 256 * row + 128, right = left + 256, bottom = top + 256;
+    gn_vertex v = {256 * (c->settings.warp ? c->grid.columns[column] : column) + 128,
+                   256 * (c->settings.warp ? c->grid.rows[row] : row) + 128, 0};
+    return v;
+}
+
+/* Does a segment touch a closed cell? Two convex sets do unless an axis parts them. */
+static int touches(const crowd *c, const gn_vertex end[2], int32_t column, int32_t row)
+{
+    gn_vertex first = centre_of(c, column, row), last = centre_of(c, column + 1, row + 1);
+    int64_t left = first.x, top = first.y, right = last.x, bottom = last.y;
     int64_t dx = end[1].x - end[0].x, dy = end[1].y - end[0].y;
     if ((end[0].x < left && end[1].x < left) || (end[0].x > right && end[1].x > right) ||
         (end[0].y < top && end[1].y < top) || (end[0].y > bottom && end[1].y > bottom))
@@ -849,23 +956,26 @@ static int64_t depth_of(gn_depth stored)
 /* The best of a cell's points: of edges that part the texels about them, a caster within reach from what lies far
  * behind; then the nearest to the light, a unit being two of the stored ones; then the smallest byte. Of meshes without
  * edges only those that part texels, and in place of the depth the square of the distance to the nearest far texel. */
-static void draw_in_cell(twin *t, const gn_settings *s, const gn_vertex end[2], int winding, int alone, int32_t column,
+static void draw_in_cell(twin *t, const crowd *c, const gn_vertex end[2], int winding, int alone, int32_t column,
                          int32_t row)
 {
     gn_segment segment;
     gn_segment_point p;
+    const gn_settings *s = &c->settings;
+    gn_vertex first = centre_of(c, column, row), after = centre_of(c, column + 1, row + 1);
+    gn_cell cell = {first.x - 128, first.y - 128, (after.x - first.x) / 256, (after.y - first.y) / 256};
     gn_make_segment(&segment, &end[0], &end[1]);
-    gn_cell cell = {256 * column, 256 * row, 1, 1};
     gn_segment_in_cell(&segment, &cell, &p);
     int64_t z = 2 * (int64_t)p.z, farthest = 0, near_caster = 0, far_off = 0, squared = INT64_MAX;
     int64_t dx = end[1].x - end[0].x, dy = end[1].y - end[0].y;
-    /* an empty texel is always far behind */
-    int64_t limit = z + t->reach, last = depth_of((gn_depth)0xffffffffu) - 1;
+    /* half as far for half the width and half the height; an empty texel is always far behind */
+    int64_t limit = z + t->reach * (cell.width + cell.height) / 2, last = depth_of((gn_depth)0xffffffffu) - 1;
     limit = limit < last ? limit : last;
     for (int i = 0; i < 4; i++) {
-        int32_t c = column + (i & 1), r = row + (i >> 1);
-        int64_t texel = depth_of(t->texels[r * s->map_width + c]);
-        int64_t side = winding * (dx * (256 * r + 128 - end[0].y) - dy * (256 * c + 128 - end[0].x));
+        int32_t texel_column = column + (i & 1), texel_row = row + (i >> 1);
+        gn_vertex centre = centre_of(c, texel_column, texel_row);
+        int64_t texel = depth_of(t->texels[texel_row * s->map_width + texel_column]);
+        int64_t side = winding * (dx * (centre.y - end[0].y) - dy * (centre.x - end[0].x));
         int64_t x = p.x - 256 * (i & 1), y = p.y - 256 * (i >> 1);
         farthest = texel > farthest ? texel : farthest;
         near_caster += side < 0 && texel <= limit;
@@ -899,23 +1009,23 @@ static void draw_in_cell(twin *t, const gn_settings *s, const gn_vertex end[2], 
     best->found = 1;
 }
 
-static void draw_edge(twin *t, const gn_context *context, const gn_object *object, const uint32_t index[2], int winding,
-                      int alone)
+static void draw_edge(twin *t, const crowd *c, const gn_view *view, const gn_object *object, const uint32_t index[2],
+                      int winding, int alone)
 {
     gn_vertex end[2];
-    const gn_settings *s = &context->settings;
+    const gn_settings *s = &c->settings;
     t->edges++;
-    if (!find_ends(t, &context->light_view, object, index, end))
+    if (!find_ends(t, view, object, index, end))
         return;
     for (int32_t row = 0; row + 1 < s->map_height; row++)
         for (int32_t column = 0; column + 1 < s->map_width; column++)
-            if (touches(end, column, row))
-                draw_in_cell(t, s, end, winding, alone, column, row);
+            if (touches(c, end, column, row))
+                draw_in_cell(t, c, end, winding, alone, column, row);
 }
 
-static void draw_twin(twin *t, const gn_context *context)
+static void draw_twin(twin *t, const crowd *c, const gn_view *view)
 {
-    const gn_scene *scene = context->scene;
+    const gn_scene *scene = &c->scene;
     for (uint32_t o = 0; o < scene->object_count; o++) {
         const gn_object *object = &scene->objects[o];
         const gn_mesh *mesh = object->mesh;
@@ -923,29 +1033,48 @@ static void draw_twin(twin *t, const gn_context *context)
         for (uint32_t e = 0; mesh->edges && e < mesh->edge_count; e++) {
             uint32_t half = mesh->edges[e].half[0], other = mesh->edges[e].half[1];
             uint32_t ends[2] = {index[half], index[next_corner(half)]};
-            int winding = facing_of(&context->light, object, half / 3);
+            int winding = facing_of(&c->light, object, half / 3);
             if (other != GN_NO_HALF_EDGE) {
-                int facing = facing_of(&context->light, object, (other & ~GN_SAME_DIRECTION) / 3);
+                int facing = facing_of(&c->light, object, (other & ~GN_SAME_DIRECTION) / 3);
                 winding += other & GN_SAME_DIRECTION ? facing : -facing;
             }
             if (winding)
-                draw_edge(t, context, object, ends, winding, 0);
+                draw_edge(t, c, view, object, ends, winding, 0);
         }
         for (uint32_t half = 0; !mesh->edges && half < 3 * mesh->triangle_count; half++) {
             uint32_t ends[2] = {index[half], index[next_corner(half)]};
-            int facing = facing_of(&context->light, object, half / 3);
+            int facing = facing_of(&c->light, object, half / 3);
             if (facing)
-                draw_edge(t, context, object, ends, facing, 1);
+                draw_edge(t, c, view, object, ends, facing, 1);
         }
     }
 }
 
 static void note_crowd(const crowd *c, uint64_t n)
 {
-    note("scene %llu: %s light, map %dx%d, surface %d, cull %d, layers %d, %lu objects", (unsigned long long)n,
-         c->light.kind == GN_SPOT ? "spot" : "directional", (int)c->settings.map_width, (int)c->settings.map_height,
-         (int)c->settings.surface, (int)c->settings.cull, (int)c->settings.layers,
-         (unsigned long)c->scene.object_count);
+    note("scene %llu: %s light, %smap %dx%d, surface %d, cull %d, layers %d, %lu objects", (unsigned long long)n,
+         c->light.kind == GN_SPOT ? "spot" : "directional", c->settings.warp ? "warped " : "",
+         (int)c->settings.map_width, (int)c->settings.map_height, (int)c->settings.surface, (int)c->settings.cull,
+         (int)c->settings.layers, (unsigned long)c->scene.object_count);
+}
+
+/* Over the scene, whatever its light. */
+static gn_status crowd_camera(gn_camera *camera)
+{
+    static const int32_t up[3] = {0, 1, 0};
+    int32_t eye[3] = {3000, -2000, 9000}, target[3] = {1000, 1000, -3000};
+    gn_status status = gn_look_at(camera, eye, target, up);
+    return status == GN_OK ? gn_perspective(camera, GN_DEGREES(50), 400, 1 << 25) : status;
+}
+
+/* What comes before the layers. */
+static gn_status begin_light(frame *f, const crowd *c)
+{
+    gn_camera camera;
+    gn_status status = crowd_camera(&camera);
+    if (status == GN_OK && c->settings.warp)
+        status = warp_frame(f, &c->light, &camera, &c->grid);
+    return status == GN_OK ? gn_light_begin(f->context, &c->light) : status;
 }
 
 /* The light pass in one region, and the twin over the layer that it leaves. */
@@ -956,7 +1085,7 @@ static gn_status run_with_twin(frame *f, const crowd *c, twin *t)
     uint32_t first, rows, stride;
     memset(t, 0, sizeof *t);
     if (status == GN_OK)
-        status = gn_light_begin(f->context, &c->light);
+        status = begin_light(f, c);
     if (status == GN_OK)
         status = gn_light_layers(f->context, 0, 0);
     if (status != GN_OK)
@@ -966,7 +1095,10 @@ static gn_status run_with_twin(frame *f, const crowd *c, twin *t)
         memcpy(t->texels + row * c->settings.map_width, layer + row * stride,
                c->settings.map_width * sizeof *t->texels);
     t->reach = gn_make_bias(f->context, &reach);
-    draw_twin(t, f->context);
+    if (c->settings.warp) /* a texel of the mean size: GN_FINE / width by GN_FINE / height fine ones */
+        t->reach = t->reach * 2 * c->settings.map_width * c->settings.map_height /
+                   (GN_FINE * (c->settings.map_width + c->settings.map_height));
+    draw_twin(t, c, &f->context->light_view);
     return gn_light_resolve(f->context, 0, 0);
 }
 
@@ -1070,7 +1202,7 @@ static gn_status run_in_any_order(frame *f, const crowd *c)
     s.workers = (uint8_t)between(1, 4);
     gn_status status = frame_start(f, &c->scene, &s);
     if (status == GN_OK)
-        status = gn_light_begin(f->context, &c->light);
+        status = begin_light(f, c);
     shuffle(order, f->plan.light_regions);
     for (uint32_t i = 0; status == GN_OK && i < f->plan.light_regions; i++) {
         uint32_t worker = (uint32_t)between(0, s.workers - 1);
@@ -1100,15 +1232,10 @@ static int same_maps(const frame *a, const frame *b, const crowd *c, uint64_t n)
     return 1;
 }
 
-/* A camera over the scene, whatever its light. */
 static gn_status look_at_crowd(frame *f)
 {
-    static const int32_t up[3] = {0, 1, 0};
     gn_camera camera;
-    int32_t eye[3] = {3000, -2000, 9000}, target[3] = {1000, 1000, -3000};
-    gn_status status = gn_look_at(&camera, eye, target, up);
-    if (status == GN_OK)
-        status = gn_perspective(&camera, GN_DEGREES(50), 400, 1 << 25);
+    gn_status status = crowd_camera(&camera);
     return status == GN_OK ? gn_camera_pass(f->context, &camera, frame_flush, f) : status;
 }
 
@@ -1118,7 +1245,7 @@ static void maps_are_the_twins(uint64_t cases)
     static crowd c;
     uint64_t scenes = 0, edges = 0, cells = 0, hidden = 0, within = 0, contested = 0, apart = 0, clipped = 0, spots = 0,
              rows = 0;
-    uint64_t lit = 0, shadowed = 0, without = 0;
+    uint64_t lit = 0, shadowed = 0, without = 0, warped = 0, warped_points = 0;
     unsigned failures = 0;
     for (uint64_t n = 0; n < cases && failures < 5; n++) {
         frame f, other;
@@ -1159,6 +1286,8 @@ static void maps_are_the_twins(uint64_t cases)
         apart += t.apart;
         clipped += t.clipped;
         spots += c.light.kind == GN_SPOT;
+        warped += c.settings.warp != 0;
+        warped_points += c.settings.warp ? t.points : 0;
         for (uint32_t i = 0; i < c.scene.object_count; i++)
             without += c.shapes[i].mesh.edges == 0;
         if (!frame_end(&f) || (other.block && !frame_end(&other))) {
@@ -1174,11 +1303,13 @@ static void maps_are_the_twins(uint64_t cases)
        (unsigned long long)scenes, (unsigned long long)edges, (unsigned long long)cells);
     ok(scenes > cases / 4 && cells > 10 * scenes && hidden > scenes && within > scenes && contested > scenes &&
            apart > scenes && clipped > scenes / 2 && spots > scenes / 8 && rows > scenes / 4 && without > scenes / 8 &&
-           lit > scenes && shadowed > scenes,
-       "%llu points hidden, %llu within surfaces, %llu beside others, %llu of edges that part the texels, %llu edges "
+           lit > scenes && shadowed > scenes && warped > scenes / 4 && warped_points > cells / 8,
+       "%llu warped maps with %llu cells; %llu points hidden, %llu within surfaces, %llu beside others, %llu of edges "
+       "that part the texels, %llu edges "
        "clipped, %llu meshes "
        "without edges, %llu spot lights, %llu maps of regions; %llu pixels lit, %llu shadowed",
-       (unsigned long long)hidden, (unsigned long long)within, (unsigned long long)contested, (unsigned long long)apart,
+       (unsigned long long)warped, (unsigned long long)warped_points, (unsigned long long)hidden,
+       (unsigned long long)within, (unsigned long long)contested, (unsigned long long)apart,
        (unsigned long long)clipped, (unsigned long long)without, (unsigned long long)spots, (unsigned long long)rows,
        (unsigned long long)lit, (unsigned long long)shadowed);
 }
@@ -1688,6 +1819,7 @@ static void borders_of_polygons_meet(uint64_t cases)
         make_edges(s);
         failures += draw_table(&t, cells, &counts) != GN_OK;
         random_patch(&p);
+        p.warped = 0;
         p.width = p.height = MOST_SIDE;
         int32_t left = between(0, SIDE - MOST_SIDE), above = between(0, SIDE - MOST_SIDE);
         for (int32_t i = 0; i < MOST_SIDE * MOST_SIDE; i++) {
