@@ -140,18 +140,30 @@ static void widen_side(int32_t *low, int32_t *size, uint32_t texels)
     *size = wide;
 }
 
+/* Whether the formats hold the light's view of a rectangle, and places on it that the camera sees. */
+static int fits(gn_context *context, const gn_rectangle *r)
+{
+    gn_light light = context->fitting->light;
+    return gn_make_fitted_view(&context->light_view, &light, r, GN_FINE, GN_FINE) == GN_OK &&
+           gn_make_shading(context, context->fitting->largest_w) == GN_OK;
+}
+
 void gn_set_rectangle(gn_context *context, const gn_rectangle *found)
 {
     gn_fitting *fitting = context->fitting;
-    gn_view view;
-    gn_light light = fitting->light;
     gn_rectangle r = *found;
     widen_side(&r.low[0], &r.size[0], context->settings.map_width);
     widen_side(&r.low[1], &r.size[1], context->settings.map_height);
     fitting->fitted = 1;
-    if (gn_make_fitted_view(&view, &light, &r, GN_FINE, GN_FINE) != GN_OK) { /* too narrow for the formats */
-        gn_whole_plane(&r, &fitting->light);
-        fitting->fitted = 0;
+    while (!fits(context, &r)) { /* too narrow: twice the narrower side, to both sides alike */
+        int narrower = r.size[1] < r.size[0];
+        if (r.size[narrower] > GN_WHOLE / 2) {
+            gn_whole_plane(&r, &fitting->light);
+            fitting->fitted = 0;
+            break;
+        }
+        r.low[narrower] -= r.size[narrower] / 2;
+        r.size[narrower] *= 2;
     }
     fitting->rectangle = r;
 }
