@@ -14,9 +14,10 @@
 
 /* ---- light pass -------------------------------------------------------------------------------------------------- */
 
-/* Where texels of one band may be covered: fine rows [row, end), fine columns [left, right). */
+/* Where texels of one band may be covered: fine rows [row, end), fine columns [left, right); in all of these rows
+ * columns [inner_left, inner_right) are, as a triangle's sides bulge outward. */
 typedef struct band {
-    int32_t row, end, left, right;
+    int32_t row, end, left, right, inner_left, inner_right;
 } band;
 
 static band make_band(const gn_grid *grid, const gn_rows *rows, const gn_chain *from, const gn_chain *to,
@@ -32,24 +33,29 @@ static band make_band(const gn_grid *grid, const gn_rows *rows, const gn_chain *
         return b;
     int32_t first = gn_chain_at(from, b.row), last = gn_chain_at(from, b.end - 1);
     b.left = first < last ? first : last;
+    b.inner_left = first < last ? last : first;
     if (from->middle >= b.row && from->middle <= b.end) /* the middle vertex is the farthest */
         b.left = gn_first_centre(rows->last->x) < b.left ? gn_first_centre(rows->last->x) : b.left;
     first = gn_chain_at(to, b.row), last = gn_chain_at(to, b.end - 1);
     b.right = first > last ? first : last;
+    b.inner_right = first > last ? last : first;
     if (to->middle >= b.row && to->middle <= b.end)
         b.right = gn_first_centre(rows->next->x) > b.right ? gn_first_centre(rows->next->x) : b.right;
     return b;
 }
 
+/* *hint: the texel's row where the search begins, and where it ended. */
 static void insert_column(const gn_layer_target *t, const gn_chain *from, const gn_chain *to, const band *b,
-                          int32_t column, int32_t fine_column)
+                          int32_t column, int32_t fine_column, int32_t *hint)
 {
     const gn_grid *grid = t->grid;
     const uint16_t *down = grid->down + column * grid->height;
-    int32_t row = gn_find_step(down, grid->height, b->row - 1, grid->height >> 1) + 1;
+    int32_t row = gn_find_step(down, grid->height, b->row - 1, *hint) + 1;
+    int inner = fine_column >= b->inner_left && fine_column < b->inner_right;
+    *hint = row < grid->height ? row : row - 1;
     for (row = row < t->row ? t->row : row; row < t->end && down[row] < b->end; row++) {
         int32_t fine_row = down[row];
-        if (fine_column < gn_chain_at(from, fine_row) || fine_column >= gn_chain_at(to, fine_row))
+        if (!inner && (fine_column < gn_chain_at(from, fine_row) || fine_column >= gn_chain_at(to, fine_row)))
             continue;
         uint32_t z = gn_start_depth(t, fine_row, fine_column);
         if (GN_UNLIKELY(t->steep))
@@ -62,7 +68,7 @@ static void insert_column(const gn_layer_target *t, const gn_chain *from, const 
 static void walk(const gn_layer_target *t, const gn_rows *rows)
 {
     const gn_grid *grid = t->grid;
-    int32_t last = gn_band(grid, rows->bottom - 1);
+    int32_t last = gn_band(grid, rows->bottom - 1), hint = gn_band(grid, rows->row), start = grid->width >> 1;
     gn_chain from, to;
     gn_make_chains(&from, &to, rows);
     for (int32_t number = gn_band(grid, rows->row); number <= last; number++) {
@@ -70,9 +76,10 @@ static void walk(const gn_layer_target *t, const gn_rows *rows)
         band b = make_band(grid, rows, &from, &to, number);
         if (b.row >= b.end)
             continue;
-        int32_t column = gn_find_step(across, grid->width, b.left - 1, grid->width >> 1) + 1;
+        int32_t column = gn_find_step(across, grid->width, b.left - 1, start) + 1;
+        start = column < grid->width ? column : column - 1;
         for (; column < grid->width && across[column] < b.right; column++)
-            insert_column(t, &from, &to, &b, column, across[column]);
+            insert_column(t, &from, &to, &b, column, across[column], &hint);
     }
 }
 
