@@ -93,23 +93,23 @@ static void aim(gn_layer_target *t, gn_window *window)
 
 /* ---- camera pass ------------------------------------------------------------------------------------------------- */
 
-uint32_t gn_find_bent_column(const gn_grid *grid, uint32_t *u, uint32_t v, uint32_t bits, int32_t *hint)
+uint32_t gn_find_bent_column(const gn_grid *grid, uint32_t *u, uint32_t v, uint32_t bits, gn_interval *interval)
 {
     const uint16_t *across = grid->across + gn_band(grid, (int32_t)gn_texel(v, GN_FINE - 1, bits)) * grid->width;
-    *u = gn_find_grid_place(across, grid->width, *u, bits, hint);
+    *u = gn_find_grid_place(interval, across, grid->width, *u, bits);
     return gn_texel(*u, (uint32_t)grid->width - 1, bits);
 }
 
 static void place(const gn_lookup *l, gn_points *points)
 {
     const gn_grid *grid = l->grid;
-    int32_t column_hint = 0, row_hint = 0;
+    gn_interval between_columns = {0}, between_rows = {0};
     for (int32_t i = 0; i < points->count; i++) {
         if (points->u[i] == GN_NOWHERE)
             continue;
-        uint32_t column = gn_find_bent_column(grid, &points->u[i], points->v[i], l->bits, &column_hint);
-        points->v[i] = gn_find_grid_place(grid->down + column * (uint32_t)grid->height, grid->height, points->v[i],
-                                          l->bits, &row_hint);
+        uint32_t column = gn_find_bent_column(grid, &points->u[i], points->v[i], l->bits, &between_columns);
+        points->v[i] = gn_find_grid_place(&between_rows, grid->down + column * (uint32_t)grid->height, grid->height,
+                                          points->v[i], l->bits);
     }
 }
 
@@ -229,13 +229,13 @@ static void add_down(const gn_context *context, void *sums, const gn_points *poi
 {
     uint32_t bits = gn_point_bits(context), height = context->settings.map_height;
     uint16_t *count = sums;
-    int32_t hint = 0;
+    gn_interval between = {0};
     (void)w;
     for (int32_t i = 0; i < points->count; i++) {
         uint32_t u = points->u[i];
         if (u == GN_NOWHERE)
             continue;
-        uint32_t column = gn_find_bent_column(context->grid, &u, points->v[i], bits, &hint);
+        uint32_t column = gn_find_bent_column(context->grid, &u, points->v[i], bits, &between);
         count_one(&count[column * height + gn_bin(gn_share(points->v[i], bits), height)]);
     }
 }
