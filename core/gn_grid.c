@@ -133,31 +133,36 @@ static void aim(gn_layer_target *t, gn_window *window)
 
 /* ---- camera pass ------------------------------------------------------------------------------------------------- */
 
-uint32_t gn_find_grid_place(const uint16_t *table, int32_t count, uint32_t place, uint32_t bits, int32_t *texel)
+void gn_find_interval(gn_interval *interval, const uint16_t *table, int32_t count, uint32_t place, uint32_t bits)
 {
-    int32_t fine = gn_floor_shift((int32_t)place, bits), i = gn_find_step(table, count, fine, *texel);
-    uint32_t rest, width;
-    *texel = i < 0 ? 0 : i;
-    if (i < 0) {
-        rest = ((uint32_t)table[0] << bits) - place;
-        width = 2u * table[0] + 1;
-        return 0u - rest / width - (rest / width * width != rest);
+    int32_t fine = gn_floor_shift((int32_t)place, bits), i = gn_find_step(table, count, fine, interval->texel);
+    gn_interval at = {table, i < 0 ? 0 : i, 0, (uint32_t)1 << 31, (uint32_t)i << bits, 1};
+    at.start = (uint32_t)table[at.texel] << bits;
+    if (i < 0) { /* whole texels further left, so that the quotient's floor is that of a number that is not negative */
+        at.width = 2u * table[0] + 1;
+        at.reach = at.width << bits;
+        uint32_t texels = (at.start - place - 1) / at.reach + 1;
+        at.start -= texels * at.reach;
+        at.place = 0u - (texels << bits);
+    } else if (i + 1 < count) {
+        at.width = (uint32_t)(table[i + 1] - table[i]);
+        at.reach = at.width << bits;
+    } else {
+        at.width = 2u * (GN_FINE - table[i]) - 1;
     }
-    rest = place - ((uint32_t)table[i] << bits);
-    width = i + 1 < count ? (uint32_t)(table[i + 1] - table[i]) : 2u * (GN_FINE - table[i]) - 1;
-    return ((uint32_t)i << bits) + rest / width;
+    *interval = at;
 }
 
 static void place(const gn_lookup *lookup, gn_points *points)
 {
     const gn_grid *grid = lookup->grid;
-    int32_t column = 0, row = 0;
-    for (int32_t i = 0; i < points->count; i++) {
-        if (points->u[i] == GN_NOWHERE)
-            continue;
-        points->u[i] = gn_find_grid_place(grid->columns, grid->width, points->u[i], lookup->bits, &column);
-        points->v[i] = gn_find_grid_place(grid->rows, grid->height, points->v[i], lookup->bits, &row);
-    }
+    gn_interval column = {0}, row = {0};
+    for (int32_t i = 0; i < points->count; i++)
+        if (points->u[i] != GN_NOWHERE)
+            points->u[i] = gn_find_grid_place(&column, grid->columns, grid->width, points->u[i], lookup->bits);
+    for (int32_t i = 0; i < points->count; i++)
+        if (points->u[i] != GN_NOWHERE)
+            points->v[i] = gn_find_grid_place(&row, grid->rows, grid->height, points->v[i], lookup->bits);
 }
 
 /* The texel at or before a place of those that have a next one. */

@@ -14,9 +14,10 @@
 
 /* ---- light pass -------------------------------------------------------------------------------------------------- */
 
-/* Where texels of one band may be covered: fine rows [row, end), fine columns [left, right). */
+/* Where texels of one band may be covered: fine rows [row, end), fine columns [left, right); in all of these rows
+ * columns [inner_left, inner_right) are, as a triangle's sides bulge outward. */
 typedef struct band {
-    int32_t row, end, left, right;
+    int32_t row, end, left, right, inner_left, inner_right;
 } band;
 
 static band make_band(const gn_grid *grid, const gn_rows *rows, const gn_chain *from, const gn_chain *to,
@@ -32,24 +33,29 @@ static band make_band(const gn_grid *grid, const gn_rows *rows, const gn_chain *
         return b;
     int32_t first = gn_chain_at(from, b.row), last = gn_chain_at(from, b.end - 1);
     b.left = first < last ? first : last;
+    b.inner_left = first < last ? last : first;
     if (from->middle >= b.row && from->middle <= b.end) /* the middle vertex is the farthest */
         b.left = gn_first_centre(rows->last->x) < b.left ? gn_first_centre(rows->last->x) : b.left;
     first = gn_chain_at(to, b.row), last = gn_chain_at(to, b.end - 1);
     b.right = first > last ? first : last;
+    b.inner_right = first > last ? last : first;
     if (to->middle >= b.row && to->middle <= b.end)
         b.right = gn_first_centre(rows->next->x) > b.right ? gn_first_centre(rows->next->x) : b.right;
     return b;
 }
 
+/* *hint: the texel's row where the search begins, and where it ended. */
 static void insert_column(const gn_layer_target *t, const gn_chain *from, const gn_chain *to, const band *b,
-                          int32_t column, int32_t fine_column)
+                          int32_t column, int32_t fine_column, int32_t *hint)
 {
     const gn_grid *grid = t->grid;
     const uint16_t *down = grid->down + column * grid->height;
-    int32_t row = gn_find_step(down, grid->height, b->row - 1, grid->height >> 1) + 1;
+    int32_t row = gn_find_step(down, grid->height, b->row - 1, *hint) + 1;
+    int inner = fine_column >= b->inner_left && fine_column < b->inner_right;
+    *hint = row < grid->height ? row : row - 1;
     for (row = row < t->row ? t->row : row; row < t->end && down[row] < b->end; row++) {
         int32_t fine_row = down[row];
-        if (fine_column < gn_chain_at(from, fine_row) || fine_column >= gn_chain_at(to, fine_row))
+        if (!inner && (fine_column < gn_chain_at(from, fine_row) || fine_column >= gn_chain_at(to, fine_row)))
             continue;
         uint32_t z = gn_start_depth(t, fine_row, fine_column);
         if (GN_UNLIKELY(t->steep))
@@ -62,7 +68,7 @@ static void insert_column(const gn_layer_target *t, const gn_chain *from, const 
 static void walk(const gn_layer_target *t, const gn_rows *rows)
 {
     const gn_grid *grid = t->grid;
-    int32_t last = gn_band(grid, rows->bottom - 1);
+    int32_t last = gn_band(grid, rows->bottom - 1), hint = gn_band(grid, rows->row), start = grid->width >> 1;
     gn_chain from, to;
     gn_make_chains(&from, &to, rows);
     for (int32_t number = gn_band(grid, rows->row); number <= last; number++) {
@@ -70,9 +76,10 @@ static void walk(const gn_layer_target *t, const gn_rows *rows)
         band b = make_band(grid, rows, &from, &to, number);
         if (b.row >= b.end)
             continue;
-        int32_t column = gn_find_step(across, grid->width, b.left - 1, grid->width >> 1) + 1;
+        int32_t column = gn_find_step(across, grid->width, b.left - 1, start) + 1;
+        start = column < grid->width ? column : column - 1;
         for (; column < grid->width && across[column] < b.right; column++)
-            insert_column(t, &from, &to, &b, column, across[column]);
+            insert_column(t, &from, &to, &b, column, across[column], &hint);
     }
 }
 
@@ -86,23 +93,23 @@ static void aim(gn_layer_target *t, gn_window *window)
 
 /* ---- camera pass ------------------------------------------------------------------------------------------------- */
 
-uint32_t gn_find_bent_column(const gn_grid *grid, uint32_t *u, uint32_t v, uint32_t bits, int32_t *hint)
+uint32_t gn_find_bent_column(const gn_grid *grid, uint32_t *u, uint32_t v, uint32_t bits, gn_interval *interval)
 {
     const uint16_t *across = grid->across + gn_band(grid, (int32_t)gn_texel(v, GN_FINE - 1, bits)) * grid->width;
-    *u = gn_find_grid_place(across, grid->width, *u, bits, hint);
+    *u = gn_find_grid_place(interval, across, grid->width, *u, bits);
     return gn_texel(*u, (uint32_t)grid->width - 1, bits);
 }
 
 static void place(const gn_lookup *l, gn_points *points)
 {
     const gn_grid *grid = l->grid;
-    int32_t column_hint = 0, row_hint = 0;
+    gn_interval between_columns = {0}, between_rows = {0};
     for (int32_t i = 0; i < points->count; i++) {
         if (points->u[i] == GN_NOWHERE)
             continue;
-        uint32_t column = gn_find_bent_column(grid, &points->u[i], points->v[i], l->bits, &column_hint);
-        points->v[i] = gn_find_grid_place(grid->down + column * (uint32_t)grid->height, grid->height, points->v[i],
-                                          l->bits, &row_hint);
+        uint32_t column = gn_find_bent_column(grid, &points->u[i], points->v[i], l->bits, &between_columns);
+        points->v[i] = gn_find_grid_place(&between_rows, grid->down + column * (uint32_t)grid->height, grid->height,
+                                          points->v[i], l->bits);
     }
 }
 
@@ -222,13 +229,13 @@ static void add_down(const gn_context *context, void *sums, const gn_points *poi
 {
     uint32_t bits = gn_point_bits(context), height = context->settings.map_height;
     uint16_t *count = sums;
-    int32_t hint = 0;
+    gn_interval between = {0};
     (void)w;
     for (int32_t i = 0; i < points->count; i++) {
         uint32_t u = points->u[i];
         if (u == GN_NOWHERE)
             continue;
-        uint32_t column = gn_find_bent_column(context->grid, &u, points->v[i], bits, &hint);
+        uint32_t column = gn_find_bent_column(context->grid, &u, points->v[i], bits, &between);
         count_one(&count[column * height + gn_bin(gn_share(points->v[i], bits), height)]);
     }
 }

@@ -89,9 +89,25 @@ GN_INLINE int32_t gn_band(const gn_grid *grid, int32_t fine_row)
 /* The texel of a warped map at (column, row): its fine column and row. */
 void gn_find_fine(const gn_grid *grid, int32_t column, int32_t row, int32_t fine[2]);
 
-/* From a place in fine texels to one in texels, both from the first centre; *texel: the latest one's, where the search
- * begins. Beyond the outermost centres the map ends half a texel further. */
-uint32_t gn_find_grid_place(const uint16_t *table, int32_t count, uint32_t place, uint32_t bits, int32_t *texel);
+/* The two neighbours in a table that a place lay between last: nearby places mostly do too. Begin with all 0. */
+typedef struct gn_interval {
+    const uint16_t *table;
+    int32_t texel;         /* the left one's number; at the left border 0 */
+    uint32_t start, reach; /* in places; reach 2^31: up to the right border */
+    uint32_t place, width; /* of its start in texels; in fine texels */
+} gn_interval;
+
+void gn_find_interval(gn_interval *interval, const uint16_t *table, int32_t count, uint32_t place, uint32_t bits);
+
+/* From a place in fine texels to one in texels, both from the first centre. Beyond the outermost centres the map ends
+ * half a texel further. */
+GN_INLINE uint32_t gn_find_grid_place(gn_interval *interval, const uint16_t *table, int32_t count, uint32_t place,
+                                      uint32_t bits)
+{
+    if (interval->table != table || place - interval->start >= interval->reach)
+        gn_find_interval(interval, table, count, place, bits);
+    return interval->place + (place - interval->start) / interval->width;
+}
 
 /* A point's place on the light's view, 2^-30 of its sides, both being GN_FINE texels. */
 GN_INLINE uint32_t gn_share(uint32_t place, uint32_t bits)

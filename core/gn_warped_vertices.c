@@ -9,8 +9,8 @@
 
 static int32_t move(const uint16_t *table, int32_t count, int32_t x)
 {
-    int32_t hint = 0;
-    return (int32_t)gn_find_grid_place(table, count, (uint32_t)(x - 128), 8, &hint) + 128;
+    gn_interval interval = {0};
+    return (int32_t)gn_find_grid_place(&interval, table, count, (uint32_t)(x - 128), 8) + 128;
 }
 
 static gn_vertex move_rectilinear(const gn_grid *grid, const gn_vertex *v)
@@ -21,8 +21,8 @@ static gn_vertex move_rectilinear(const gn_grid *grid, const gn_vertex *v)
 
 static gn_vertex move_bent(const gn_grid *grid, const gn_vertex *v)
 {
-    int32_t hint = 0;
-    uint32_t u = (uint32_t)(v->x - 128), column = gn_find_bent_column(grid, &u, (uint32_t)(v->y - 128), 8, &hint);
+    gn_interval interval = {0};
+    uint32_t u = (uint32_t)(v->x - 128), column = gn_find_bent_column(grid, &u, (uint32_t)(v->y - 128), 8, &interval);
     gn_vertex moved = {(int32_t)u + 128, move(grid->down + column * (uint32_t)grid->height, grid->height, v->y),
                        v->depth};
     return moved;

@@ -30,6 +30,6 @@ uint64_t gn_nonorthogonal_bytes(const gn_settings *settings);
 void gn_lay_out_nonorthogonal(gn_context *context, uint16_t *tables);
 
 /* The column of texels of a place in fine texels, and *u: where it is between the columns. */
-uint32_t gn_find_bent_column(const gn_grid *grid, uint32_t *u, uint32_t v, uint32_t bits, int32_t *hint);
+uint32_t gn_find_bent_column(const gn_grid *grid, uint32_t *u, uint32_t v, uint32_t bits, gn_interval *interval);
 
 #endif
