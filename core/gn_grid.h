@@ -10,7 +10,7 @@
 #include "gn_raster.h"
 
 #define GN_FINE_BITS 12
-#define GN_FINE (1 << GN_FINE_BITS)
+#define GN_FINE (1 << GN_FINE_BITS) /* at least GN_MAX_SIZE: texels lie in fine ones of their own */
 
 typedef struct gn_grid gn_grid;
 struct gn_layer_target;

@@ -19,8 +19,6 @@ static gn_status check(const gn_settings *s)
         return GN_OUT_OF_RANGE;
     if (s->fit_depth > 1)
         return GN_BAD_ARGUMENT;
-    if (warp && (s->map_width > GN_FINE || s->map_height > GN_FINE))
-        return GN_UNSUPPORTED;
     if (warp && warp->bent &&
         (s->reconstruction || s->surface == GN_SLOPE || (s->receiver && s->receiver->votes && !s->receiver->resample)))
         return GN_UNSUPPORTED;
