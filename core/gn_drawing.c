@@ -92,7 +92,9 @@ void gn_begin_canvas(gn_context *context, uint32_t region, uint32_t worker, gn_c
     int32_t first = (int32_t)region * rows, end = first + rows < height ? first + rows : height;
     uint32_t stride = context->map_stride;
     const gn_grid *grid = context->grid;
-    gn_cells cells = {{grid ? grid->columns : 0, 0, width}, {grid ? grid->rows : 0, first, end + (end < height)}};
+    const gn_unequal_cells *unequal = grid ? grid->cells : 0;
+    gn_cells cells = {{grid ? grid->columns : 0, 0, width, unequal},
+                      {grid ? grid->rows : 0, first, end + (end < height), unequal}};
     c->map = drawn->map + first * width;
     c->texels = context->map + (size_t)first * stride;
     c->beyond = 0;

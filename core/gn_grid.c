@@ -7,6 +7,7 @@
  * Cost on a Cortex-M4: docs/performance.md. Memory: two bytes a column and a row. */
 #include "gn_chain.h"
 #include "gn_insert.h"
+#include "gn_unequal_cells.h"
 #include "gn_warp_table.h"
 #include "gn_warps.h"
 
@@ -230,6 +231,7 @@ void gn_lay_out_rectilinear(gn_context *context, uint16_t *tables)
     grid->aim = aim;
     grid->walk = walk;
     grid->place = place;
+    grid->cells = &gn_rectilinear_cells;
     grid->sample = sample;
     context->grid = grid;
 }

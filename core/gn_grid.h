@@ -15,6 +15,7 @@
 typedef struct gn_grid gn_grid;
 struct gn_layer_target;
 struct gn_lookup;
+struct gn_unequal_cells;
 struct gn_points;
 
 struct gn_grid {
@@ -24,7 +25,8 @@ struct gn_grid {
     /* non-orthogonal, else 0: fine column of texel column i in band b of GN_FINE / height fine rows, at [b width + i];
      * fine row of texel row j in texel column i, at [i height + j] */
     const uint16_t *across, *down;
-    int32_t width, height; /* texels */
+    int32_t width, height;                /* texels */
+    const struct gn_unequal_cells *cells; /* rectilinear: gn_rectilinear_cells */
 
     /* Light pass: have a target, whose rows are those of *window, keep these, and turn the window into fine texels;
      * insert a clockwise triangle whose plane is set. */

@@ -4,6 +4,7 @@
 
 #include "gn_around.h"
 #include "gn_silhouette_map.h"
+#include "gn_unequal_cells.h"
 
 /* Whether a place has four texels about it. */
 GN_INLINE int gn_has_cell(const gn_lookup *l, uint32_t u, uint32_t v)
@@ -49,15 +50,12 @@ GN_INLINE uint32_t gn_cell_at(const gn_lookup *l, int32_t at)
     return at < 0 ? GN_CELL_CENTRE : l->silhouettes[at];
 }
 
-/* The same where lines are straight on a warped map's plane, through cells of unequal width and height. */
-uint32_t gn_find_quadrant_on_grid(const gn_lookup *l, uint32_t u, uint32_t v);
-
 /* The texel in whose quadrant a place lies: 1 right, + 2 below. A place on a line is right of it, or below, as a place
  * half-way between two texels is the next one's. */
 GN_INLINE uint32_t gn_find_quadrant(const gn_lookup *l, uint32_t u, uint32_t v)
 {
     if (GN_UNLIKELY(l->columns != 0))
-        return gn_find_quadrant_on_grid(l, u, v);
+        return l->grid->cells->find_quadrant(l, u, v);
     int32_t width = (int32_t)l->last_column + 1, at = (int32_t)(v >> l->bits) * width + (int32_t)(u >> l->bits);
     uint32_t mask = ((uint32_t)1 << l->bits) - 1, to_sixteenths = l->bits - 4;
     uint32_t point = l->silhouettes[at], other;

@@ -1,6 +1,6 @@
 #include "gn_segment.h"
 
-#include "gn_grid.h"
+#include "gn_unequal_cells.h"
 
 enum { HALF = 128 };
 
@@ -21,10 +21,10 @@ int gn_make_segment(gn_segment *segment, const gn_vertex *a, const gn_vertex *b)
     return swap;
 }
 
-GN_COLD int32_t gn_find_centre_before(const gn_axis *axis, int32_t place)
+int32_t gn_centre_before(const gn_axis *axis, int32_t place)
 {
     int32_t texel = gn_floor_shift(place, 8);
-    return axis->first + gn_find_step(axis->places + axis->first, axis->end - axis->first, texel, -1);
+    return GN_UNLIKELY(axis->unequal != 0) ? axis->unequal->centre_before(axis, texel) : texel;
 }
 
 /* The cells about an axis' places [from, to]: between two centres each. */
@@ -73,8 +73,14 @@ static int is_inside(const gn_cell *cell, int32_t x, int32_t y)
     return x >= 0 && x <= 256 * cell->width && y >= 0 && y <= 256 * cell->height;
 }
 
-/* The way n / d to a crossing, in 2^-32: 0 if the segment does not reach it. */
-static int find_way(int32_t n, int32_t d, uint32_t *way)
+/* A share of d, rounded down: d way / 2^32. */
+static int32_t share(int32_t d, uint32_t way)
+{
+    return (int32_t)gn_floor_shift_64(gn_multiply(d, (int32_t)(way >> 1)), 31);
+}
+
+/* The way n / d to a crossing, in 2^-32: 0 where the segment does not reach it, or beyond the cell but for rounding. */
+GN_INLINE int find_crossing(const gn_segment *s, int32_t x, int32_t width, int32_t n, int32_t d, uint32_t *way)
 {
     if (d < 0) {
         n = -n;
@@ -83,45 +89,15 @@ static int find_way(int32_t n, int32_t d, uint32_t *way)
     if (n < 0 || n >= d)
         return 0;
     *way = gn_divide((uint64_t)(uint32_t)n << 32, (uint32_t)d);
-    return 1;
-}
-
-/* n / d in 32 bits, d >= 0: what find_way needs of it. Of a d beyond 31 bits the last ones are left out. */
-static void narrow(int64_t n, int64_t d, int32_t *short_n, int32_t *short_d)
-{
-    if (d < 0) {
-        n = -n;
-        d = -d;
-    }
-    n = n < 0 ? -1 : n < d ? n : d;
-    for (; d >> 31; d >>= 1)
-        n = gn_floor_shift_64(n, 1);
-    *short_n = (int32_t)n;
-    *short_d = (int32_t)d;
-}
-
-/* The ways n / d to where the diagonals are crossed: x / width = y / height and x / width + y / height = 256. x, y: of
- * the segment's upper end, from the cell's corner. All below 2^37. */
-static GN_COLD void find_ways(const gn_segment *s, const gn_cell *cell, int32_t x, int32_t y, int32_t n[2],
-                              int32_t d[2])
-{
-    int64_t across = gn_multiply(x, cell->height), down = gn_multiply(y, cell->width);
-    int64_t run = gn_multiply(s->dx, cell->height), fall = gn_multiply(s->dy, cell->width);
-    narrow(down - across, run - fall, &n[0], &d[0]);
-    narrow(gn_multiply(256 * cell->width, cell->height) - across - down, run + fall, &n[1], &d[1]);
-}
-
-/* A share of d, rounded down: d way / 2^32. */
-static int32_t share(int32_t d, uint32_t way)
-{
-    return (int32_t)gn_floor_shift_64(gn_multiply(d, (int32_t)(way >> 1)), 31);
+    int32_t at = x + share(s->dx, *way);
+    return at >= -width && at < 257 * width;
 }
 
 /* In 1/256 of a cell's side, rounded down and held in the cell. */
 static int32_t part_of(int32_t v, int32_t side)
 {
     v = v < 0 ? 0 : v > 256 * side ? 256 * side : v;
-    return side == 1 ? v : v / side;
+    return v / side;
 }
 
 void gn_segment_in_cell(const gn_segment *s, const gn_cell *cell, gn_segment_point *point)
@@ -135,18 +111,16 @@ void gn_segment_in_cell(const gn_segment *s, const gn_cell *cell, gn_segment_poi
         y += s->dy;
         point->z = s->z + (uint32_t)s->dz;
     } else {
-        /* A crossing of a diagonal counts where it is in the cell, but for rounding. */
-        int32_t n[2] = {y - x, 256 - x - y}, d[2] = {s->dx - s->dy, s->dx + s->dy};
-        uint32_t way[2] = {0, 0};
-        int valid[2];
-        if (GN_UNLIKELY(width + height != 2))
-            find_ways(s, cell, x, y, n, d);
-        for (int i = 0; i < 2; i++) {
-            valid[i] = find_way(n[i], d[i], &way[i]);
-            int32_t at = x + share(s->dx, way[i]);
-            valid[i] = valid[i] && at >= -width && at < 257 * width;
+        gn_ways w = {{y - x, 256 - x - y}, {s->dx - s->dy, s->dx + s->dy}}; /* to x = y and x + y = 256 */
+        uint32_t one = 0, other = 0;
+        if (GN_UNLIKELY(cell->unequal != 0)) {
+            gn_ways unequal;
+            cell->unequal->find_ways(&unequal, s, cell, x, y);
+            w = unequal;
         }
-        uint32_t middle = valid[0] && valid[1] ? (way[0] >> 1) + (way[1] >> 1) : valid[0] ? way[0] : way[1];
+        int crosses_one = find_crossing(s, x, width, w.n[0], w.d[0], &one);
+        int crosses_other = find_crossing(s, x, width, w.n[1], w.d[1], &other);
+        uint32_t middle = !crosses_one ? other : !crosses_other ? one : (one >> 1) + (other >> 1);
         x += share(s->dx, middle);
         y += share(s->dy, middle);
         point->z = s->z + (uint32_t)share(s->dz, middle);

@@ -17,9 +17,11 @@
 
 /* The centres of columns or rows of texels, numbers [first, end): at 256 places[i], strictly increasing; where places
  * is 0, at 256 i. */
+typedef struct gn_unequal_cells gn_unequal_cells;
 typedef struct gn_axis {
     const uint16_t *places;
     int32_t first, end;
+    const gn_unequal_cells *unequal; /* gn_unequal_cells.h, where there are places; else 0 */
 } gn_axis;
 
 typedef struct gn_cells {
@@ -30,6 +32,7 @@ typedef struct gn_cells {
 typedef struct gn_cell {
     int32_t x, y;
     int32_t width, height;
+    const gn_unequal_cells *unequal;
 } gn_cell;
 
 typedef struct gn_segment {
@@ -44,6 +47,12 @@ typedef struct gn_segment_point {
     int32_t x, y;
     uint32_t z;
 } gn_segment_point;
+
+/* The ways n / d from a segment's upper end to where it crosses a cell's two diagonals: no ways where that is not in
+ * [0, 1). */
+typedef struct gn_ways {
+    int32_t n[2], d[2];
+} gn_ways;
 
 /* From two vertices on the map. Returns 1 where b is the upper end. */
 int gn_make_segment(gn_segment *segment, const gn_vertex *a, const gn_vertex *b);
@@ -65,16 +74,12 @@ GN_INLINE int32_t gn_step_after(const gn_axis *axis, int32_t i)
 
 /* The last centre at or before a place. Along unequal steps first - 1 stands for all before the first; along equal ones
  * the centres go on both ways. Cost: a bisection. */
-int32_t gn_find_centre_before(const gn_axis *axis, int32_t place);
-GN_INLINE int32_t gn_centre_before(const gn_axis *axis, int32_t place)
-{
-    return GN_UNLIKELY(axis->places != 0) ? gn_find_centre_before(axis, place) : gn_floor_shift(place, 8);
-}
+int32_t gn_centre_before(const gn_axis *axis, int32_t place);
 
 GN_INLINE gn_cell gn_cell_between(const gn_cells *cells, int32_t column, int32_t row)
 {
     gn_cell cell = {gn_centre(&cells->columns, column), gn_centre(&cells->rows, row),
-                    gn_step_after(&cells->columns, column), gn_step_after(&cells->rows, row)};
+                    gn_step_after(&cells->columns, column), gn_step_after(&cells->rows, row), cells->columns.unequal};
     return cell;
 }
 

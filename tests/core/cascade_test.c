@@ -246,6 +246,21 @@ static int by_silhouettes(filter how, const tested *t, const point *p, verdict *
     return sum;
 }
 
+/* What a plane's slack grows by on a warped map: of its parts (gn_receiver_plane.c) the one by how far outside its
+ * triangle it is asked grows with the larger side of the cell between four texels that holds the point. */
+static int64_t slack_of_wide(const gn_context *context, const gn_receiver_plane *plane, const point *p)
+{
+    const gn_grid *grid = context->grid;
+    const gn_settings *s = &context->settings;
+    int64_t one = (int64_t)1 << p->bits, width[3], height[3], h = gn_rise(plane->plane.dx, plane->plane.dy);
+    int64_t outside = plane->slack - 0x8000 - h / 256 * 2;
+    if (!grid || !plane->exists || outside < 0)
+        return 0;
+    find_sizes(grid->columns, clamped(floor_divide(p->u - one / 2, one), s->map_width - 2), s->map_width, width);
+    find_sizes(grid->rows, clamped(floor_divide(p->v - one / 2, one), s->map_height - 2), s->map_height, height);
+    return outside * ((width[1] > height[1] ? width[1] : height[1]) - 1);
+}
+
 static int is_drawn(filter how)
 {
     return how == SILHOUETTES || how == SMOOTH;
@@ -296,7 +311,7 @@ static verdict judge(gn_context *context, filter how, receiver who, const point 
     }
     if (open) {
         gn_wide_plane nearer = plane->plane;
-        nearer.base -= plane->slack;
+        nearer.base -= plane->slack + slack_of_wide(context, plane, p);
         t.plane = plane->exists ? &nearer : 0;
         v.lit = is_drawn(how) ? by_silhouettes(how, &t, p, &v) : filtered(how, &t, p, x, y, &v.whole);
         v.resampled = 1;

@@ -4,7 +4,7 @@
  * segments of every length up to the whole guard band; the same on cells of unequal width and height; and on wide cells
  * of one size, where everything is what it is on cells of one texel. Cases: 400000 random segments, fewer in slower
  * builds, or GNOMON_CASES. */
-#include "gn_segment.h"
+#include "gn_unequal_cells.h"
 #include "tap.h"
 
 #include <string.h>
@@ -23,7 +23,7 @@ static int32_t between(int64_t low, int64_t high)
 /* ---- cells by separating axes ------------------------------------------------------------------------------------ */
 
 /* Cells of one texel, everywhere. */
-static const gn_cells even = {{0, -20000, 20000}, {0, -20000, 20000}};
+static const gn_cells even = {{0, -20000, 20000, 0}, {0, -20000, 20000, 0}};
 
 /* A cell, in 1/256 texel. */
 typedef struct box {
@@ -423,7 +423,7 @@ typedef struct table {
 /* Steps of one texel, of a few, of any number. */
 static gn_axis random_axis(uint16_t centres[MOST_CENTRES])
 {
-    gn_axis axis = {centres, 0, between(2, MOST_CENTRES)};
+    gn_axis axis = {centres, 0, between(2, MOST_CENTRES), &gn_rectilinear_cells};
     int32_t at = between(0, 1) ? between(0, 9) : between(0, 2000), most = between(0, 2) ? between(1, 12) : WIDEST;
     for (int32_t i = 0; i < axis.end; i++) {
         centres[i] = (uint16_t)at;
@@ -503,8 +503,9 @@ static void wide_cells_are_like_small_ones(uint64_t cases)
     uint64_t points = 0;
     for (uint64_t n = 0; n < cases && failures < 5; n++) {
         int32_t count = between(2, MOST_CENTRES), times = between(1, 16), start = between(0, 99);
-        const gn_cells small = {{0, 0, count}, {0, 0, count}};
-        const gn_cells wide = {{t.places[0], 0, count}, {t.places[0], 0, count}};
+        const gn_cells small = {{0, 0, count, 0}, {0, 0, count, 0}};
+        const gn_cells wide = {{t.places[0], 0, count, &gn_rectilinear_cells},
+                               {t.places[0], 0, count, &gn_rectilinear_cells}};
         gn_vertex v[2][2];
         gn_segment segment[2];
         int32_t rows[2][2], columns[2][2];

@@ -7,7 +7,7 @@
  */
 #include "gn_cascade.h"
 #include "gn_clip.h"
-#include "gn_segment.h"
+#include "gn_unequal_cells.h"
 #include "mesh_edges.h"
 #include "quadrants.h"
 #include "warped.h"
@@ -40,6 +40,7 @@ typedef struct patch {
     gn_wide_plane plane;
     uint16_t columns[MOST_SIDE], rows[MOST_SIDE]; /* where texels lie, of warped maps */
     int warped;
+    gn_grid grid;
     gn_lookup lookup;
 } patch;
 
@@ -53,7 +54,9 @@ static void set_lookup(patch *p)
                    .whole = gn_silhouettes.whole,
                    .silhouettes = p->cells,
                    .columns = p->warped ? p->columns : 0,
-                   .rows = p->warped ? p->rows : 0};
+                   .rows = p->warped ? p->rows : 0,
+                   .grid = p->warped ? &p->grid : 0};
+    p->grid.cells = &gn_rectilinear_cells;
     p->lookup = l;
 }
 
@@ -963,7 +966,8 @@ static void draw_in_cell(twin *t, const crowd *c, const gn_vertex end[2], int wi
     gn_segment_point p;
     const gn_settings *s = &c->settings;
     gn_vertex first = centre_of(c, column, row), after = centre_of(c, column + 1, row + 1);
-    gn_cell cell = {first.x - 128, first.y - 128, (after.x - first.x) / 256, (after.y - first.y) / 256};
+    gn_cell cell = {first.x - 128, first.y - 128, (after.x - first.x) / 256, (after.y - first.y) / 256,
+                    s->warp ? &gn_rectilinear_cells : 0};
     gn_make_segment(&segment, &end[0], &end[1]);
     gn_segment_in_cell(&segment, &cell, &p);
     int64_t z = 2 * (int64_t)p.z, farthest = 0, near_caster = 0, far_off = 0, squared = INT64_MAX;

@@ -77,7 +77,6 @@ void gn_rasterise_region(gn_context *context, gn_worker *worker, const gn_window
 #define gn_look_at_border twin_look_at_border
 #define gn_look_beyond twin_look_beyond
 #define gn_silhouettes twin_silhouettes
-#define gn_find_quadrant_on_grid twin_find_quadrant_on_grid
 uint32_t gn_point_bits(const gn_context *context);
 void gn_start_points(const gn_context *context, gn_points *points);
 void gn_find_points(const gn_context *context, gn_points *points, uint32_t *q);
@@ -104,7 +103,6 @@ void gn_cascade_row(gn_context *context, gn_worker *worker, uint32_t from, int32
 #undef gn_look_at_border
 #undef gn_look_beyond
 #undef gn_silhouettes
-#undef gn_find_quadrant_on_grid
 #undef OUTSIDE
 
 /* The shadow test. */
