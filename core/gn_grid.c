@@ -187,7 +187,7 @@ static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const g
         local.base = gn_wide_depth(&local, grid->columns[column], grid->rows[row]);
         local.dx *= width;
         local.dy *= height;
-        local.base -= column * local.dx + row * local.dy;
+        local.base = gn_wide_depth(&local, -column, -row);
     }
     return l->how->sample(l, points, i, &local);
 }

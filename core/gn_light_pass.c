@@ -291,6 +291,10 @@ static GN_COLD void insert_clipped(const gn_context *context, gn_layer_target *t
     gn_place corner[3];
     gn_polygon polygon;
     gn_rows rows;
+    if (context->insert_clamped) {
+        context->insert_clamped(context, t, object, triangle, culled, window);
+        return;
+    }
     gn_triangle_indices(object->mesh, triangle, index);
     gn_triangle_places(&context->light_view, object, index, corner);
     gn_clip_triangle(&polygon, &context->light_view, corner);
