@@ -173,7 +173,7 @@ typedef enum gn_inside { GN_NOT_INSIDE, GN_INSIDE, GN_WELL_INSIDE } gn_inside;
 gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *largest_w, int *inside);
 
 /* The places of a triangle's corners, for clipping. */
-void gn_triangle_places(const gn_view *view, const gn_object *object, const uint32_t index[3], gn_place corner[3]);
+void gn_triangle_places(const gn_view *view, const gn_object *object, uint32_t triangle, gn_place corner[3]);
 
 /* Maps in memory: a point light may have six, one below the other. */
 GN_INLINE uint32_t gn_map_count(const gn_settings *settings)

@@ -120,13 +120,11 @@ GN_INLINE void insert_span(const void *state, int32_t row, int32_t left, int32_t
 static void insert(const gn_context *context, gn_layer_target *t, const gn_object *object, uint32_t triangle,
                    int culled, const gn_window *window)
 {
-    uint32_t index[3];
     gn_place corner[3];
     gn_polygon polygon;
     gn_rows rows;
     int64_t error;
-    gn_triangle_indices(object->mesh, triangle, index);
-    gn_triangle_places(&context->light_view, object, index, corner);
+    gn_triangle_places(&context->light_view, object, triangle, corner);
     (void)make_clamped_plane(&t->steep_plane, &polygon, &context->light_view, corner, &error);
     if (polygon.area == 0 || (polygon.area > 0 ? 1 : -1) == culled)
         return;

@@ -170,6 +170,7 @@ int64_t gn_wide_slack(const gn_lookup *l, const gn_points *points, int32_t i, in
 {
     const gn_receiver_plane *plane = gn_find_plane(l->context, l->worker, points->triangle[i], 0);
     int64_t rise = gn_rise(plane->plane.dx, plane->plane.dy) >> 8, more = plane->slack - GN_PLANE_ERROR - 2 * rise;
+    more -= l->context->light_view.endless ? GN_CLAMPED_ERROR : 0;
     return plane->exists && more > 0 ? more * (width - 1) : 0;
 }
 
