@@ -51,7 +51,7 @@ static int32_t bin_of_triangle(const gn_context *context, const gn_view *view, u
     if (state->clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0)) {
         gn_place corner[3];
         gn_polygon polygon;
-        gn_triangle_places(view, object, index, corner);
+        gn_triangle_places(view, object, triangle, corner);
         gn_clip_triangle(&polygon, view, corner);
         if (polygon.area == 0)
             return -1;

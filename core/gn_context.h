@@ -16,6 +16,10 @@ typedef struct gn_drawn gn_drawn;
 typedef struct gn_fitting gn_fitting;
 struct gn_points;
 
+/* gn_light_pass.c: what is done with a triangle that has a corner beyond the planes or the guard band. */
+typedef void gn_insert_beyond(const gn_context *context, struct gn_layer_target *t, const gn_object *object,
+                              uint32_t triangle, int culled, const gn_window *window);
+
 /* Colour pairs of triangles in view, kept per worker: a direct-mapped cache, a power of two. Trades RAM (24 bytes an
  * entry) against time; never changes a pixel. */
 #ifndef GN_COLOUR_CACHE
@@ -96,6 +100,7 @@ struct gn_context {
     gn_fitting *fitting;        /* gn_parameterisation.h; 0 without a fit and a warp */
     const gn_grid *grid;        /* where the texels of a warped map lie; 0: evenly */
 
+    gn_insert_beyond *insert_clamped; /* gn_fit_depth.c, in place of clipping; 0: triangles are clipped */
     gn_light light;
     gn_view light_view;
     uint8_t point_light;                 /* 1: light and light_view are those of a face of one */
@@ -168,7 +173,7 @@ typedef enum gn_inside { GN_NOT_INSIDE, GN_INSIDE, GN_WELL_INSIDE } gn_inside;
 gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *largest_w, int *inside);
 
 /* The places of a triangle's corners, for clipping. */
-void gn_triangle_places(const gn_view *view, const gn_object *object, const uint32_t index[3], gn_place corner[3]);
+void gn_triangle_places(const gn_view *view, const gn_object *object, uint32_t triangle, gn_place corner[3]);
 
 /* Maps in memory: a point light may have six, one below the other. */
 GN_INLINE uint32_t gn_map_count(const gn_settings *settings)

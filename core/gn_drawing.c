@@ -126,6 +126,36 @@ static void draw_segment(const gn_canvas *c, const gn_vertex *a, const gn_vertex
     c->draw(c, &s);
 }
 
+/* Of a fitted depth range: what is nearer than its end is drawn there, what is farther is not drawn. */
+static GN_COLD void draw_clamped(const gn_canvas *c, const gn_view *view, gn_place place[2], const edge *e)
+{
+    gn_vertex v[3];
+    int64_t before[2], behind[2];
+    for (int i = 0; i < 2; i++) {
+        before[i] = place[i].c[2];
+        behind[i] = view->far_w - place[i].c[2];
+    }
+    if (behind[0] <= 0 && behind[1] <= 0)
+        return;
+    if (behind[0] < 0 || behind[1] < 0) {
+        int out = behind[1] < 0;
+        place[out] = gn_plane_crossing(view, &place[0], &place[1], behind[0], behind[1], 1);
+        before[out] = place[out].c[2];
+    }
+    gn_place middle = place[1];
+    if ((before[0] < 0 && before[1] > 0) || (before[0] > 0 && before[1] < 0))
+        middle = gn_plane_crossing(view, &place[0], &place[1], before[0], before[1], 2);
+    const gn_place *way[3] = {&place[0], &middle, &place[1]};
+    for (int i = 0; i < 3; i++) {
+        gn_place held = *way[i];
+        held.c[2] = held.c[2] < 0 ? 0 : held.c[2];
+        gn_view_project_inside(view, &held, &v[i]);
+    }
+    draw_segment(c, &v[0], &v[1], e);
+    if (v[1].x != v[2].x || v[1].y != v[2].y)
+        draw_segment(c, &v[1], &v[2], e);
+}
+
 /* An edge with an end beyond the planes or the guard band: clipped as its triangles are. */
 static GN_COLD void draw_clipped(const gn_context *context, const gn_canvas *c, const gn_object *object, const edge *e)
 {
@@ -143,6 +173,10 @@ static GN_COLD void draw_clipped(const gn_context *context, const gn_canvas *c, 
             return;
         if (da < 0 || db < 0)
             place[da < 0 ? 0 : 1] = gn_plane_crossing(view, &place[0], &place[1], da, db, plane);
+    }
+    if (view->endless) {
+        draw_clamped(c, view, place, e);
+        return;
     }
     for (int i = 0; i < 2; i++)
         gn_view_project_inside(view, &place[i], &v[i]);

@@ -176,6 +176,7 @@ int64_t gn_wide_slack(const gn_lookup *l, const gn_points *points, int32_t i, in
 {
     const gn_receiver_plane *plane = gn_find_plane(l->context, l->worker, points->triangle[i], 0);
     int64_t rise = gn_rise(plane->plane.dx, plane->plane.dy) >> 8, more = plane->slack - GN_PLANE_ERROR - 2 * rise;
+    more -= l->context->light_view.endless ? GN_CLAMPED_ERROR : 0;
     return plane->exists && more > 0 ? more * (width - 1) : 0;
 }
 
@@ -193,7 +194,7 @@ static uint32_t sample(const gn_lookup *l, gn_points *points, int32_t i, const g
         local.base = gn_wide_depth(&local, grid->columns[column], grid->rows[row]);
         local.dx *= width;
         local.dy *= height;
-        local.base -= column * local.dx + row * local.dy;
+        local.base = gn_wide_depth(&local, -column, -row);
     }
     return l->how->sample(l, points, i, &local);
 }

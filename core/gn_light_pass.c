@@ -287,12 +287,14 @@ static GN_COLD void insert_steep(gn_layer_target *t, const gn_mesh *mesh, const 
 static GN_COLD void insert_clipped(const gn_context *context, gn_layer_target *t, const gn_object *object,
                                    uint32_t triangle, int culled, const gn_window *window)
 {
-    uint32_t index[3];
     gn_place corner[3];
     gn_polygon polygon;
     gn_rows rows;
-    gn_triangle_indices(object->mesh, triangle, index);
-    gn_triangle_places(&context->light_view, object, index, corner);
+    if (context->insert_clamped) {
+        context->insert_clamped(context, t, object, triangle, culled, window);
+        return;
+    }
+    gn_triangle_places(&context->light_view, object, triangle, corner);
     gn_clip_triangle(&polygon, &context->light_view, corner);
     if (polygon.area == 0 || (polygon.area > 0 ? 1 : -1) == culled)
         return;

@@ -46,6 +46,21 @@ struct gn_warp {
     uint8_t bent; /* non-orthogonal: cells have no straight sides */
 };
 
+/* The least and the largest of some depths. */
+typedef struct gn_depth_extent {
+    uint32_t low, high;
+} gn_depth_extent;
+
+/* How far a neighbour that was clamped may be off by that, units of z: Z are cut by 2^10 units at most where the scene
+ * lies in the light's box, and gradients err by 2^-29 of what the plane rises over a triangle, 2^42. */
+#define GN_CLAMPED_ERROR ((1 << 11) + (1 << 13))
+
+/* The plane of a triangle with a corner beyond the depths of a view, and its polygon on the map, whose area is 0 where
+ * it has none. *error: how far off its corners may be, units of z. 1: too steep, it is flat. */
+struct gn_polygon;
+typedef int gn_clamped_plane(gn_wide_plane *plane, struct gn_polygon *polygon, const gn_view *view,
+                             const gn_place corner[3], int64_t *error);
+
 struct gn_fitting {
     gn_rectangle rectangle;
     gn_grid grid;
@@ -56,6 +71,11 @@ struct gn_fitting {
     uint8_t round;                               /* view pass: which */
     uint8_t seen;                                /* 1: a view pass has ended */
     gn_status (*make_view)(gn_context *context); /* the light's, for the light pass */
+    /* Fitted depth: the light's box along the light, world units; a depth of 0: its own. What the camera sees, units of
+     * z of the light's own box; low > high: nothing. The plane of a triangle with a corner beyond (gn_fit_depth.c). */
+    int32_t box_z, box_depth;
+    gn_depth_extent seen_depths;
+    gn_clamped_plane *clamped_plane;
     /* Spot lights: from a place in the rectangle to the one on the whole plane, both in 2^-30; 0: it is not on it. */
     int (*find_place)(const gn_fitting *fitting, uint32_t *left, uint32_t *top);
     /* of the view pass: */
@@ -76,6 +96,10 @@ gn_status gn_make_fitted_view(gn_view *view, gn_light *light, const gn_rectangle
 /* Make a rectangle that holds all places the map's: a texel more on each side. */
 void gn_set_rectangle(gn_context *context, const gn_rectangle *found);
 int gn_find_place_on_plane(const gn_fitting *fitting, uint32_t *left, uint32_t *top);
+
+/* gn_fit_depth.c: the box along the light from seen_depths, when the rectangle is found; use it for the light pass. */
+void gn_fit_depth(gn_context *context);
+gn_status gn_use_fitted_depth(gn_context *context);
 
 /* The whole plane of a light. */
 void gn_whole_plane(gn_rectangle *rectangle, const gn_light *light);

@@ -142,6 +142,43 @@ GN_COLD int gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const
     return 0;
 }
 
+/* round(512 2^k |n| / A) with n's sign, k <= 14; *sheer where that may reach 2^48. */
+static GN_COLD int64_t far_gradient(int64_t n, const slopes *s, int32_t k, int *sheer)
+{
+    int32_t shift;
+    uint64_t q = quotient(n, s->reciprocal, s->area_shift, &shift);
+    int32_t left = shift + 9 + k;
+    if (q == 0 || left < -32)
+        return 0;
+    if (left > 16) {
+        *sheer = 1;
+        return 0;
+    }
+    q = left < 0 ? ((q >> (-left - 1)) + 1) >> 1 : q << left;
+    return n < 0 ? -(int64_t)q : (int64_t)q;
+}
+
+GN_COLD int gn_make_far_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
+                              int64_t area, uint32_t shift)
+{
+    slopes s;
+    find_slopes(&s, v0, v1, v2, area);
+    int sheer = 0;
+    int32_t x = 128 - v0->x, y = 128 - v0->y;
+    plane->dx = far_gradient(s.nx, &s, (int32_t)shift, &sheer);
+    plane->dy = far_gradient(s.ny, &s, (int32_t)shift, &sheer);
+    if (sheer) {
+        plane->base = (int64_t)farthest_depth(v0, v1, v2) << (shift + 1);
+        plane->dx = plane->dy = 0;
+        return 1;
+    }
+    /* |x|, |y| < 2^21, and from the first centre to any other it is below 1.5 x 2^20: products below 2^61 */
+    plane->base = ((int64_t)v0->depth << (shift + 1)) + x * gn_floor_shift_64(plane->dx, 8) +
+                  y * gn_floor_shift_64(plane->dy, 8) +
+                  gn_floor_shift_64(x * (plane->dx & 255) + y * (plane->dy & 255), 8);
+    return 0;
+}
+
 /* floor(2^32 |n| / A) with n's sign: Q a 1/256 pixel, 32 fraction bits; *steep where that reaches 2^54. */
 static GN_NOINLINE uint64_t q_gradient(int64_t n, const slopes *s, int *steep)
 {

@@ -56,9 +56,11 @@ GN_INLINE uint32_t gn_saturate(int64_t z)
     return (uint32_t)((uint64_t)z >> 32) == 0 ? (uint32_t)z : z < 0 ? 0 : 0xffffffffu;
 }
 
+/* Modulo 2^64: the value fits, a base far from it need not. */
 GN_INLINE int64_t gn_wide_depth(const gn_wide_plane *plane, int32_t column, int32_t row)
 {
-    return plane->base + column * plane->dx + row * plane->dy;
+    return (int64_t)((uint64_t)plane->base + (uint64_t)(int64_t)column * (uint64_t)plane->dx +
+                     (uint64_t)(int64_t)row * (uint64_t)plane->dy);
 }
 
 /* h: what a plane rises within half a texel, (|dx| + |dy|) / 2. */
@@ -88,6 +90,11 @@ int gn_make_depth_plane(gn_depth_plane *plane, const gn_vertex *v0, const gn_ver
  * constant, the farthest vertex's, and the result is 1. */
 int gn_make_steep_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
                         int64_t area);
+
+/* The same for vertices whose Z count 2^shift units, shift <= 14: gradients below 2^48, so that z is below 2^62 at
+ * every texel of a map of 4096. Beyond, z is constant, the farthest vertex's, and the result is 1. */
+int gn_make_far_plane(gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area,
+                      uint32_t shift);
 
 /* The same for Q: gradients with 32 fraction bits, relative error 2^-29; too steep: constant, the farthest Q. */
 void gn_make_q_plane(gn_q_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2, int64_t area);

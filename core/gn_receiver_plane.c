@@ -11,6 +11,7 @@
  * Cost: on a Cortex-M4 about 1,400 instructions a plane. Memory: 40 bytes an entry. */
 #include "gn_cascade.h"
 #include "gn_clip.h"
+#include "gn_parameterisation.h"
 #include "gn_point_light.h"
 
 static int32_t length(const gn_vertex *a, const gn_vertex *b)
@@ -27,7 +28,7 @@ static int32_t length(const gn_vertex *a, const gn_vertex *b)
  * of the triangle along both axes, so that sum is at most 1 + 256 (E1 + E2) / A: E1, E2 the longest sides, |x| + |y|, A
  * twice the area. More than h itself no centre differs from the point. What arithmetic adds is below 2^15. */
 static int64_t slack_of(const gn_wide_plane *plane, const gn_vertex *v0, const gn_vertex *v1, const gn_vertex *v2,
-                        int64_t area)
+                        int64_t area, int64_t error)
 {
     int64_t h = gn_rise(plane->dx, plane->dy);
     int32_t a = length(v0, v1), b = length(v1, v2), c = length(v2, v0), least = a < b ? a : b;
@@ -37,7 +38,7 @@ static int64_t slack_of(const gn_wide_plane *plane, const gn_vertex *v0, const g
         weight = 1;
     else if (sides < twice)
         weight = gn_divide((uint64_t)sides << 8, (uint32_t)twice) + 1;
-    return GN_PLANE_ERROR + (h >> 8) * (int64_t)(2 + weight);
+    return GN_PLANE_ERROR + ((h >> 8) + error) * (int64_t)(2 + weight);
 }
 
 static void widen(gn_wide_plane *out, const gn_depth_plane *plane, const gn_vertex *first)
@@ -90,17 +91,27 @@ static GN_NOINLINE void make_plane(const gn_context *context, gn_receiver_plane 
         else
             widen(&out->plane, &plane, &v[0]);
         /* one that is too steep even for 64 bits knows nothing of its depth: no virtual sample shadows it */
-        out->slack = sheer ? (int64_t)1 << 32 : slack_of(&out->plane, &v[0], &v[1], &v[2], area);
+        out->slack = sheer ? (int64_t)1 << 32 : slack_of(&out->plane, &v[0], &v[1], &v[2], area, 0);
     } else {
         gn_polygon polygon;
-        gn_clip_triangle(&polygon, view, corner);
+        int64_t error = 0;
+        int sheer = 0;
+        if (view->endless) {
+            sheer = context->fitting->clamped_plane(&out->plane, &polygon, view, corner, &error);
+        } else {
+            gn_clip_triangle(&polygon, view, corner);
+            if (polygon.area)
+                gn_make_clipped_plane(&plane, &polygon);
+        }
         if (polygon.area == 0)
             return;
-        gn_make_clipped_plane(&plane, &polygon);
-        widen(&out->plane, &plane, &polygon.v[0]);
+        if (!view->endless)
+            widen(&out->plane, &plane, &polygon.v[0]);
         const gn_vertex *piece = &polygon.v[polygon.reference];
-        out->slack = slack_of(&out->plane, &polygon.v[0], piece, piece + 1, polygon.area);
+        out->slack =
+            sheer ? (int64_t)1 << 32 : slack_of(&out->plane, &polygon.v[0], piece, piece + 1, polygon.area, error);
     }
+    out->slack += view->endless ? GN_CLAMPED_ERROR : 0; /* of a neighbour */
     if (context->point_light)
         out->plane.base -= gn_face_row(context, face) * out->plane.dy;
     out->exists = 1;

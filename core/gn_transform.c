@@ -141,13 +141,12 @@ gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *
     return GN_OK;
 }
 
-void gn_triangle_places(const gn_view *view, const gn_object *object, const uint32_t index[3], gn_place corner[3])
+void gn_triangle_places(const gn_view *view, const gn_object *object, uint32_t triangle, gn_place corner[3])
 {
-    for (int i = 0; i < 3; i++) {
-        int32_t world[3];
-        (void)gn_world_position(object, index[i], world);
-        (void)gn_view_place(view, world, &corner[i]);
-    }
+    int32_t world[3][3];
+    (void)gn_triangle_world(object, triangle, world);
+    for (int i = 0; i < 3; i++)
+        (void)gn_view_place(view, world[i], &corner[i]);
 }
 
 static int in_world(const int32_t p[3])

@@ -33,6 +33,7 @@ static uint64_t count_sums(const gn_settings *s)
         uint64_t bytes = s->warp->rounds[i].bytes(s);
         most = bytes > most ? bytes : most;
     }
+    most += s->fit && s->fit_depth ? sizeof(gn_depth_extent) : 0;
     return (most + GN_ALIGNMENT - 1) / GN_ALIGNMENT * GN_ALIGNMENT;
 }
 
@@ -104,8 +105,10 @@ static gn_status make_view(gn_context *context)
             gn_divide((uint64_t)context->texels_across << 30, (uint32_t)fitting->rectangle.size[0]);
         context->texels_down = gn_divide((uint64_t)context->texels_down << 30, (uint32_t)fitting->rectangle.size[1]);
     }
-    return gn_make_fitted_view(&context->light_view, &context->light, &fitting->rectangle,
-                               context->grid ? GN_FINE : width, context->grid ? GN_FINE : height);
+    gn_status status = gn_make_fitted_view(&context->light_view, &context->light, &fitting->rectangle,
+                                           context->grid ? GN_FINE : width, context->grid ? GN_FINE : height);
+    context->insert_clamped = 0;
+    return status == GN_OK && fitting->box_depth ? gn_use_fitted_depth(context) : status;
 }
 
 const gn_parameterisation gn_fit_and_warp = {make_plan, lay_out_head};
@@ -126,6 +129,20 @@ static uint8_t *sums_of(const gn_fitting *fitting, uint32_t worker)
     return fitting->sums + (size_t)(worker * fitting->sums_bytes);
 }
 
+/* Of fitted depth: behind all else that the fit's round sums up; 0 in other rounds. */
+static gn_depth_extent *depths_of(const gn_context *context, uint32_t worker)
+{
+    if (!context->settings.fit_depth || !context->settings.fit || context->fitting->round)
+        return 0;
+    return (gn_depth_extent *)(void *)sums_of(context->fitting, worker + 1) - 1;
+}
+
+static void add_depths(gn_depth_extent *sum, uint32_t low, uint32_t high)
+{
+    sum->low = low < sum->low ? low : sum->low;
+    sum->high = high > sum->high ? high : sum->high;
+}
+
 /* From the light's view of the rectangle to shading, and empty sums. */
 static gn_status begin_round(gn_context *context)
 {
@@ -137,8 +154,12 @@ static gn_status begin_round(gn_context *context)
         return status;
     context->light_trusted = GN_NOT_INSIDE;
     status = gn_make_shading(context, fitting->largest_w);
-    for (uint32_t i = 0; status == GN_OK && i < context->settings.workers; i++)
+    for (uint32_t i = 0; status == GN_OK && i < context->settings.workers; i++) {
+        gn_depth_extent none = {0xffffffffu, 0}, *depths = depths_of(context, i);
         find_round(context)->clear(&context->settings, sums_of(fitting, i));
+        if (depths)
+            *depths = none;
+    }
     return status;
 }
 
@@ -152,6 +173,7 @@ gn_status gn_view_begin(gn_context *context, const gn_camera *camera, const gn_l
     context->phase = GN_PHASE_NONE;
     fitting->seen = 0;
     fitting->fitted = 0;
+    fitting->box_depth = 0;
     fitting->round = 0;
     fitting->light = *light;
     (void)lay_out_view(context, &context->plan, &context->settings);
@@ -178,9 +200,11 @@ gn_status gn_view_begin(gn_context *context, const gn_camera *camera, const gn_l
     return status;
 }
 
-static void gather_row(const gn_context *context, gn_worker *worker, void *sums, uint32_t from, int32_t x, int32_t y,
-                       int32_t count)
+static void gather_row(const gn_context *context, gn_worker *worker, uint32_t number, uint32_t from, int32_t x,
+                       int32_t y, int32_t count)
 {
+    void *sums = sums_of(context->fitting, number);
+    gn_depth_extent *depths = depths_of(context, number);
     const gn_round *round = find_round(context);
     uint32_t *q = worker->q + from, w[GN_BLOCK], bits = gn_point_bits(context);
     const uint32_t *reach = context->fitting->reach;
@@ -205,6 +229,9 @@ static void gather_row(const gn_context *context, gn_worker *worker, void *sums,
         for (int32_t i = 0; context->fitting->round == 0 && i < points.count; i++)
             worker->statistics.view_samples += points.u[i] != GN_NOWHERE;
 #endif
+        for (int32_t i = 0; depths && i < points.count; i++)
+            if (points.u[i] != GN_NOWHERE)
+                add_depths(depths, points.z[i], points.z[i]);
         round->add(context, sums, &points, context->light.kind == GN_SPOT ? w : q);
     }
 }
@@ -225,8 +252,7 @@ gn_status gn_view_region(gn_context *context, uint32_t region, uint32_t worker)
 #endif
     gn_rasterise_region(context, w, &window);
     for (uint32_t row = 0; row < pixels.height; row++)
-        gather_row(context, w, sums_of(context->fitting, worker), row * pixels.width, window.column0,
-                   window.row0 + (int32_t)row, pixels.width);
+        gather_row(context, w, worker, row * pixels.width, window.column0, window.row0 + (int32_t)row, pixels.width);
 #if GN_STATISTICS
     before.view_samples = w->statistics.view_samples;
     w->statistics = before;
@@ -246,7 +272,14 @@ gn_status gn_view_end(gn_context *context)
     const gn_round *round = find_round(context);
     for (uint32_t i = 1; i < context->settings.workers; i++)
         round->merge(&context->settings, sums_of(fitting, 0), sums_of(fitting, i));
+    gn_depth_extent *depths = depths_of(context, 0);
+    for (uint32_t i = 1; depths && i < context->settings.workers; i++)
+        add_depths(depths, depths_of(context, i)->low, depths_of(context, i)->high);
+    if (depths)
+        fitting->seen_depths = *depths;
     round->end(context, sums_of(fitting, 0));
+    if (depths)
+        gn_fit_depth(context);
     context->phase = GN_PHASE_NONE;
     fitting->round++;
     fitting->reach[0] = fitting->reach[1] = GN_WHOLE;

@@ -100,13 +100,13 @@ static void draw(target *t, const gn_rows *rows, const gn_window *window)
     GN_TALLY(t->tally->triangles++;)
 }
 
-static GN_COLD void draw_clipped(const gn_context *context, target *t, const gn_object *object, const uint32_t index[3],
+static GN_COLD void draw_clipped(const gn_context *context, target *t, const gn_object *object, uint32_t triangle,
                                  const gn_window *window)
 {
     gn_place corner[3];
     gn_polygon polygon;
     gn_rows rows;
-    gn_triangle_places(&context->camera_view, object, index, corner);
+    gn_triangle_places(&context->camera_view, object, triangle, corner);
     gn_clip_triangle(&polygon, &context->camera_view, corner);
     if (polygon.area == 0)
         return;
@@ -130,7 +130,7 @@ static void draw_triangle(const gn_context *context, target *t, uint32_t object_
     const gn_vertex *v0 = vertices + index[0], *v1 = vertices + index[1], *v2 = vertices + index[2];
     t->identifier = object_index << context->triangle_bits | triangle;
     if (state->clips && (v0->depth == 0 || v1->depth == 0 || v2->depth == 0)) {
-        draw_clipped(context, t, object, index, window);
+        draw_clipped(context, t, object, triangle, window);
         return;
     }
     gn_rows rows;

@@ -331,7 +331,8 @@ typedef struct gn_settings {
     const gn_warp *warp;                     /* 0: texels of one size. The same */
     gn_q16_16 smoothing;                     /* of warps: times the usual window; 1/64 to 64, 0: 1 */
     uint8_t fit_depth;     /* 1: with a fit of directional lights, stored depths span what the camera sees; what is
-                            * nearer to the light is taken to be at the near end. More depth resolution */
+                            * nearer to the light is taken to be at the near end. More depth resolution. Says nothing
+                            * without a fit or with a spot light, whose depths are good where they are near */
     const gn_faces *faces; /* for point lights, else 0. Says nothing with volumes */
 } gn_settings;
 
