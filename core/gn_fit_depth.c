@@ -38,6 +38,14 @@ static int32_t find_margin(const gn_context *context, int32_t range)
     return (range >> 5) + (int32_t)(across > down ? across : down) + (int32_t)bias + 2;
 }
 
+/* World units from the near end of a box to a depth in units of z, of which there are 2^32 - 2^16 in the box. */
+static int32_t from_near_end(uint32_t z, int32_t depth)
+{
+    uint32_t units = z < 2 * GN_DEPTH_GUARD ? 0 : z - 2 * GN_DEPTH_GUARD;
+    uint64_t product = gn_multiply_u(units, (uint32_t)depth); /* below 2^60; over 2^32 - 2^16 it is 2^-16 more */
+    return (int32_t)((product + (product >> 16)) >> 32);
+}
+
 void gn_fit_depth(gn_context *context)
 {
     gn_fitting *fitting = context->fitting;
@@ -50,8 +58,7 @@ void gn_fit_depth(gn_context *context)
         gn_make_fitted_view(view, light, &fitting->rectangle, GN_FINE, GN_FINE) != GN_OK)
         return;
     int32_t whole = light->box_depth, own_z = light->box_z;
-    int32_t low = own_z + (int32_t)(gn_multiply_u(seen->low, (uint32_t)whole) >> 32);
-    int32_t high = own_z + (int32_t)(gn_multiply_u(seen->high, (uint32_t)whole) >> 32) + 1;
+    int32_t low = own_z + from_near_end(seen->low, whole), high = own_z + from_near_end(seen->high, whole) + 1;
     context->texels_across = (uint32_t)context->settings.map_width << 8;
     context->texels_down = (uint32_t)context->settings.map_height << 8;
     light->box_depth = high - low;
