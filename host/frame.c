@@ -140,10 +140,16 @@ static gn_status run_camera_region(frame *f, uint32_t region, uint32_t worker)
     return status;
 }
 
-static int refused(gn_status status, const char *pass, problem *why)
+static int refused(const frame *f, gn_status status, const char *pass, problem *why)
 {
     if (status == GN_OK)
         return 0;
+    /* what else a point light does not take is refused before there is a frame */
+    if (status == GN_UNSUPPORTED && f->light.kind == GN_POINT)
+        return problem_of_usage(why,
+                                "a map of %d x %d is too small for a point light; expected a border of up to 4 texels "
+                                "on each side, as the reconstruction reads, and a texel more",
+                                f->settings.map_width, f->settings.map_height);
     return problem_of_usage(why, "the %s pass failed: %s (status %d)", pass, status_text(status), (int)status);
 }
 
@@ -161,7 +167,7 @@ int frame_view_pass(frame *f, const gn_camera *camera, const gn_light *light, pr
     if (status == GN_OK)
         status = gn_get_rectangle(f->context, &f->rectangle);
     f->view_seconds = frame_clock() - start;
-    return refused(status, "view", why);
+    return refused(f, status, "view", why);
 }
 
 /* Of a face that no caster reaches, whose map was not drawn. */
@@ -208,7 +214,7 @@ int frame_light_pass(frame *f, const gn_light *light, problem *why)
     else if (!choices_have_one_face(&f->settings))
         status = draw_faces(f);
     f->light_seconds = frame_clock() - start;
-    return refused(status, "light", why);
+    return refused(f, status, "light", why);
 }
 
 static int take_pixels(void *user, const gn_pixels *pixels)
@@ -228,7 +234,7 @@ int frame_camera_pass(frame *f, const gn_camera *camera, problem *why)
     if (status == GN_OK && !all)
         status = run_regions(f, run_camera_region, f->plan.camera_regions);
     f->camera_seconds = frame_clock() - start;
-    return refused(status, "camera", why);
+    return refused(f, status, "camera", why);
 }
 
 uint32_t (*frame_texel_places(const frame *f))[2]

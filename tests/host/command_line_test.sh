@@ -676,4 +676,32 @@ check "nor_by_bench" refuses "would be overwritten" bench "$scene" --runs 1 --js
 check "the_scene_is_as_it_was" grep -q camera "$scene"
 check "one_bad_output_stops_the_others" refuses "cannot be written" render "$scene" -o "$folder/new.ppm" \
     --mask "$folder/none/new.pgm"
+# Point lights.
+point=$folder/made/point.scene
+sed 's/^light.*/light point position 2 4 1 near 0.2 far 60/' "$scene" >"$point"
+check "a_point_light_is_rendered" status 0 render "$point" --size 100x75 --map 64 --method silhouette --mask "$folder/six.pgm" \
+    --depth "$folder/faces.pgm" --silhouettes "$folder/faces.ppm" --stats "$folder/six.json"
+check "its_six_maps_lie_one_below_the_other" sh -c "head -n 2 '$folder/faces.pgm' | tail -n 1 | grep -qx '64 384'"
+check "lit_and_shadowed_pixels_are_there" sh -c "for value in 0 254; do
+    [ \$(tail -c 7500 '$folder/six.pgm' | od -An -v -tu1 -w1 | grep -cx ' *'\$value) -gt 200 ] || exit 1; done"
+check "one_map_at_a_time_makes_the_same_mask" sh -c "'$gnomon' render '$point' --size 100x75 --map 64 --method silhouette \
+    --faces one --mask '$folder/one.pgm' --stats '$folder/one.json' && cmp '$folder/six.pgm' '$folder/one.pgm'"
+check "in_a_sixth_of_the_map" test "$(count_of map "$folder/six.json")" = "$((6 * $(count_of map "$folder/one.json")))"
+check "all_faces_are_counted" test "$(($(count_of faces_drawn "$folder/six.json") + $(count_of faces_skipped "$folder/six.json")))" = 6
+check "workers_and_regions_change_no_hash" sh -c "[ \"\$('$gnomon' render '$point' --hash --map 64 --size 80x60)\" = \
+    \"\$('$gnomon' render '$point' --hash --map 64 --size 80x60 --workers 3 --region 17x13 --map-rows 5)\" ]"
+check "a_packed_point_light_is_the_same" sh -c "'$gnomon' pack '$point' -o '$folder/point.gno' --method silhouette --faces one --size 100x75 --map 64 &&
+    '$gnomon' render '$folder/point.gno' --mask '$folder/packed.pgm' --verbose 2>&1 | grep -q 'faces one' &&
+    cmp '$folder/six.pgm' '$folder/packed.pgm'"
+check "a_header_names_its_faces" sh -c "'$gnomon' pack '$point' -o '$folder/point.h' && grep -q 'kind = GN_POINT' '$folder/point.h' &&
+    grep -q 'faces = &gn_six_faces' '$folder/point.h'"
+check "a_point_light_is_measured" status 0 bench "$point" --runs 1 --size 40x30 --map 32 --faces one
+check "volumes_take_no_point_light" refuses "shadow volumes take no point light" render "$point" --method volumes -o "$folder/new.ppm"
+check "nor_does_a_fit" refuses "takes no point light" render "$point" --parameterise dv -o "$folder/new.ppm"
+check "other_lights_have_no_faces" refuses "expected a scene with a point light" render "$scene" --faces six -o "$folder/new.ppm"
+check "a_point_light_has_some" refuses "expected six or one" render "$point" --faces none -o "$folder/new.ppm"
+check "of_one_map_at_a_time_none_is_written" refuses "no map stays" render "$point" --faces one --depth "$folder/new.pgm"
+check "a_map_that_is_all_border_is_refused" refuses "too small for a point light" render "$point" --map 4 -o "$folder/new.ppm"
+check "nothing_is_left_behind_by_any" nothing_left
+
 finish
