@@ -33,16 +33,17 @@ static int64_t rise_on_grid(const gn_context *context, const gn_wide_plane *plan
 static void move_nearer(const gn_context *context, gn_worker *worker, gn_points *points)
 {
     uint32_t last = GN_NO_TRIANGLE, last_face = 0, bias = 0;
+    const int many_faces = context->point_light, on_grid = context->grid != 0;
     for (int32_t i = 0; i < points->count; i++) {
         if (points->triangle[i] == GN_NO_TRIANGLE || points->u[i] == GN_NOWHERE)
             continue;
-        uint32_t face = gn_face_of(context, points, i);
-        if (points->triangle[i] != last || face != last_face || context->grid) {
+        uint32_t face = many_faces ? gn_face_of(context, points, i) : 0;
+        if (points->triangle[i] != last || face != last_face || on_grid) {
             last = points->triangle[i];
             last_face = face;
             const gn_wide_plane *plane = &gn_find_plane(context, worker, last, face)->plane;
-            int64_t rise = context->grid ? rise_on_grid(context, plane, points->u[i], points->v[i])
-                                         : gn_rise(plane->dx, plane->dy);
+            int64_t rise =
+                on_grid ? rise_on_grid(context, plane, points->u[i], points->v[i]) : gn_rise(plane->dx, plane->dy);
             bias = bias_of(rise, (uint32_t)context->settings.slope);
         }
         points->z[i] = points->z[i] > bias ? points->z[i] - bias : 0;
