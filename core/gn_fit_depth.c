@@ -121,7 +121,7 @@ GN_INLINE void insert_span(const void *state, int32_t row, int32_t left, int32_t
     const gn_layer_target *t = state;
     GN_TALLY(t->tally->centres += (uint32_t)(right - left);)
     for (; left < right; left++)
-        gn_insert(t, row * t->stride + left, gn_saturate(gn_wide_depth(&t->steep_plane, left, row)), t->rise);
+        gn_insert_wide(t, row * t->stride + left, gn_wide_depth(&t->steep_plane, left, row), t->rise);
 }
 
 static void insert(const gn_context *context, gn_layer_target *t, const gn_object *object, uint32_t triangle,

@@ -64,8 +64,8 @@ static GN_COLD void insert_steep_columns(const gn_layer_target *t, int32_t row, 
 {
     int32_t fine_row = t->grid->rows[row];
     for (; left < right; left++)
-        gn_insert(t, row * t->stride + left,
-                  gn_saturate(gn_wide_depth(&t->steep_plane, t->grid->columns[left], fine_row)), rise_at(t, left, row));
+        gn_insert_wide(t, row * t->stride + left, gn_wide_depth(&t->steep_plane, t->grid->columns[left], fine_row),
+                       rise_at(t, left, row));
 }
 
 static void insert_rising_columns(const gn_layer_target *t, int32_t row, int32_t left, int32_t right)

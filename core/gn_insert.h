@@ -23,4 +23,10 @@ GN_INLINE void gn_insert(const gn_layer_target *t, int32_t at, uint32_t z, uint3
     }
 }
 
+/* The same of a depth that may be out of range: held within it, and so is what it rises to. */
+GN_INLINE void gn_insert_wide(const gn_layer_target *t, int32_t at, int64_t z, uint32_t rise)
+{
+    gn_insert(t, at, gn_saturate(z), z < 0 ? gn_saturate(z + rise) : rise);
+}
+
 #endif

@@ -630,6 +630,57 @@ static void test_range(void)
     shape_free(&level);
 }
 
+/* ---- slopes ------------------------------------------------------------------------------------------------------ */
+
+/* GN_SLOPE stores twice what lies half a texel's rise below the nearest surface, less that. A caster far above the
+ * range, which rises 100 texels a texel, has risen to no place within it. */
+static void test_slope(void)
+{
+    uint64_t lit = 0, shadowed = 0, wrong = 0;
+    int good = 1;
+    for (int warped = 0; warped < 2; warped++) {
+        shape s = shape_new(0);
+        gn_object object = {.mesh = &s.mesh};
+        gn_scene scene = {.objects = &object, .object_count = 1};
+        gn_settings settings = gn_default_settings(WIDTH, HEIGHT, MAP);
+        gn_camera camera = random_camera();
+        gn_light light = box_light(1 << 22);
+        int32_t a[3] = {-4096, -4096, 100000}, b[3] = {0, -4096, 500000}, c[3] = {0, 4096, 500000};
+        int32_t d[3] = {-4096, 4096, 100000};
+        frame f;
+        add_level(&s, -4096, -4096, 4096, 4096, 0, 1);
+        add_quad(&s, a, b, c, d);
+        settings.mask = 1;
+        settings.format = GN_NO_COLOUR;
+        settings.surface = GN_SLOPE;
+        settings.slope = 2 << 16;
+        settings.bias.unit = GN_BIAS_TEXELS;
+        settings.bias.value = 1 << 16;
+        settings.fit = &gn_desired_view;
+        settings.warp = warped ? &gn_rectilinear : 0;
+        settings.fit_depth = 1;
+        good &= frame_start(&f, &scene, &settings) == GN_OK && render(&f, &light, &camera) == GN_OK;
+        facet ground = facet_of(&s.mesh, 0), other = facet_of(&s.mesh, 1);
+        double texel = widest_texel(f.context);
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                vector at;
+                const facet both[2] = {ground, other};
+                if (seen_at(&camera, both, 2, x + 0.5, y + 0.5, &at) < 0 || fabs(at.c[0]) < 2 * texel ||
+                    at.c[0] < -4096 + 2 * texel || fabs(at.c[1]) > 4096 - 2 * texel)
+                    continue;
+                lit += at.c[0] > 0;
+                shadowed += at.c[0] < 0;
+                wrong += f.mask[y * WIDTH + x] != (at.c[0] < 0 ? 0 : 254);
+            }
+        good &= frame_end(&f);
+        shape_free(&s);
+    }
+    ok(good && !wrong && lit > 500 && shadowed > 500,
+       "slopes: a steep caster above the range shadows: %llu pixels lit, %llu shadowed, %llu wrong",
+       (unsigned long long)lit, (unsigned long long)shadowed, (unsigned long long)wrong);
+}
+
 /* ---- spot lights ------------------------------------------------------------------------------------------------- */
 
 static void test_spot(void)
@@ -725,6 +776,7 @@ int main(int argc, char **argv)
     test_lifted(cases);
     test_planes(100 * cases);
     test_range();
+    test_slope();
     test_spot();
     test_worth(cases);
     return tap_done();
