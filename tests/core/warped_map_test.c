@@ -891,7 +891,7 @@ static gn_status views_about(gn_light *light, gn_camera *camera, const gn_scene 
     if (!scene->objects->mesh->closed && is_edge_on(scene->objects->mesh, direction))
         return views_about(light, camera, scene);
     status = between(0, 3) ? gn_perspective(camera, GN_DEGREES(between(10, 60)), 1 << 13, 1 << 25)
-                           : gn_orthographic(camera, between(1 << 17, 1 << 21), -(1 << 25), 1 << 25);
+                           : gn_orthographic(camera, between(1 << 17, 1 << 21), -(1 << 24), 1 << 24);
     if (status != GN_OK)
         return status;
     if (between(0, 1)) /* all of the shape is within 2^21.4 of the origin, the light at 2^22.6 or more */
