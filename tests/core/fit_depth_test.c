@@ -6,6 +6,7 @@
  * and 100 times as many triangles, fewer in slower builds, or GNOMON_CASES. */
 #include "gn_cascade.h"
 #include "gn_drawing.h"
+#include "gn_silhouette_map.h"
 #include "scenes.h"
 #include "warped.h"
 
@@ -391,13 +392,13 @@ static void test_rays(uint64_t cases)
  * mask. */
 static void test_lifted(uint64_t cases)
 {
-    uint64_t bad = 0, differ = 0, drawn = 0, lit = 0, shadowed = 0;
+    uint64_t bad = 0, differ = 0, drawn = 0, drawn_without = 0, lit = 0, shadowed = 0;
     for (uint64_t n = 0; n < cases; n++) {
         gn_settings settings = random_settings();
         gn_camera camera = random_camera();
         gn_light light = box_light(1 << 22);
         int32_t casters[4][3][3];
-        frame f[2];
+        frame f[3]; /* level; lifted; level, without the option */
         shape s[2] = {shape_new(0), shape_new(0)};
         settings.surface = settings.surface == GN_MIXED ? GN_CONSTANT : settings.surface; /* level ones mark one way */
         for (int lifted = 0; lifted < 2; lifted++) {
@@ -413,25 +414,35 @@ static void test_lifted(uint64_t cases)
             gn_object object = {.mesh = &s[lifted].mesh};
             gn_scene scene = {.objects = &object, .object_count = 1};
             bad += frame_start(&f[lifted], &scene, &settings) != GN_OK || render(&f[lifted], &light, &camera) != GN_OK;
+            if (lifted)
+                continue;
+            settings.fit_depth = 0;
+            bad += frame_start(&f[2], &scene, &settings) != GN_OK || render(&f[2], &light, &camera) != GN_OK;
+            settings.fit_depth = 1;
         }
         bad += f[0].context->light.box_z != f[1].context->light.box_z || f[0].context->light.box_z < -(1 << 15);
         for (uint32_t i = 0; i < MAP * MAP; i++) {
             differ += texel_at(f[0].context, i % MAP, i / MAP) != texel_at(f[1].context, i % MAP, i / MAP);
-            if (f[0].context->drawn) {
-                differ += f[0].context->drawn->map[i] != f[1].context->drawn->map[i];
-                drawn += f[0].context->drawn->map[i] != f[0].context->drawn->map[0];
-            }
+            if (!f[0].context->drawn)
+                continue;
+            uint8_t nothing = settings.reconstruction == &gn_crossings ? 0 : GN_CELL_CENTRE;
+            differ += f[0].context->drawn->map[i] != f[1].context->drawn->map[i];
+            drawn += f[0].context->drawn->map[i] != nothing;
+            drawn_without += f[2].context->drawn->map[i] != nothing;
         }
         differ += memcmp(f[0].mask, f[1].mask, mask_bytes(&f[0])) != 0;
         count_mask(&f[0], &lit, &shadowed);
-        for (int i = 0; i < 2; i++) {
+        for (int i = 0; i < 3; i++)
             bad += !frame_end(&f[i]);
-            shape_free(&s[i]);
-        }
+        shape_free(&s[0]);
+        shape_free(&s[1]);
     }
-    ok(!bad && !differ && lit > 100 * cases && shadowed > 100 * cases && drawn > 10 * cases,
-       "casters above the range shadow alike however high they are: %llu pixels lit, %llu shadowed, %llu drawn",
-       (unsigned long long)lit, (unsigned long long)shadowed, (unsigned long long)drawn);
+    ok(!bad && !differ && lit > 100 * cases && shadowed > 100 * cases && drawn > 10 * cases &&
+           drawn > drawn_without - drawn_without / 20,
+       "casters above the range shadow alike however high they are: %llu pixels lit, %llu shadowed, %llu cells "
+       "drawn, without the option %llu",
+       (unsigned long long)lit, (unsigned long long)shadowed, (unsigned long long)drawn,
+       (unsigned long long)drawn_without);
 }
 
 /* ---- one triangle ------------------------------------------------------------------------------------------------ */
@@ -442,6 +453,7 @@ static void test_planes(uint64_t cases)
     int32_t vertices[3][3];
     uint16_t indices[3] = {0, 1, 2};
     gn_mesh mesh = {0};
+    uint64_t left_out = 0;
     mesh.vertices = (const int32_t(*)[3])vertices;
     mesh.indices = indices;
     mesh.vertex_count = 3;
@@ -471,7 +483,8 @@ static void test_planes(uint64_t cases)
         }
         s.receiver = &gn_virtual;
         s.surface = GN_CONSTANT;
-        s.cull = GN_CULL_NONE;
+        s.cull = (uint8_t)between(GN_CULL_NONE, GN_CULL_FRONT);
+        mesh.closed = (uint8_t)between(0, 1);
         s.fit = &gn_desired_view;
         s.fit_depth = 1;
         s.warp = warped ? &gn_rectilinear : 0;
@@ -486,6 +499,8 @@ static void test_planes(uint64_t cases)
         facet v = facet_of(&mesh, 0);
         if (v.nz == 0)
             continue;
+        int culled = mesh.closed && s.cull == (v.nz > 0 ? GN_CULL_FRONT : GN_CULL_BACK);
+        left_out += (uint64_t)culled;
         bad += frame_start(&f, &scene, &s) != GN_OK || gn_view_pass(f.context, &camera, &light) != GN_OK;
         gn_whole_plane(&f.context->fitting->rectangle, &light);
         f.context->fitting->fitted = 0;
@@ -512,7 +527,7 @@ static void test_planes(uint64_t cases)
                 int32_t column = warped ? t.columns[i] : i, row = warped ? t.rows[j] : j;
                 double x = (column + 0.5) * width, y = (1 << 14) - (row + 0.5) * width;
                 double inside = depth_inside(&v, x, y);
-                if (inside < -width / 32) {
+                if (culled || inside < -width / 32) {
                     wrong += stored != GN_FARTHEST;
                     continue;
                 }
@@ -541,7 +556,8 @@ static void test_planes(uint64_t cases)
             }
         bad += !frame_end(&f);
     }
-    ok(!bad, "%llu lone triangles are drawn", (unsigned long long)cases);
+    ok(!bad && left_out > cases / 8, "%llu lone triangles are drawn or, %llu, left out", (unsigned long long)cases,
+       (unsigned long long)left_out);
     ok(!wrong && 1000 * flat < texels && texels > 100 * cases && near_end > 10 * cases && far_end > 10 * cases &&
            between_ends > 10 * cases,
        "%llu texels hold the plane's depth or the range's end: %llu near, %llu far, %llu between, %llu flat",
@@ -697,6 +713,7 @@ static void test_spot(void)
     int good = gn_spot_light(&light, position, target, 0, GN_DEGREES(40), 2000, 30000) == GN_OK;
     add_level(&s, -4096, -4096, 4096, 4096, 0, 1);
     add_level(&s, -1000, -1000, 1000, 1000, 12000, 1);
+    light.box_depth = light.box_width = light.box_height = 1 << 20; /* of another light: not read */
     settings.mask = 1;
     settings.format = GN_NO_COLOUR;
     settings.surface = GN_CONSTANT;
