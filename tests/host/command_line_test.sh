@@ -682,6 +682,7 @@ sed 's/^light.*/light point position 2 4 1 near 0.2 far 60/' "$scene" >"$point"
 check "a_point_light_is_rendered" status 0 render "$point" --size 100x75 --map 64 --method silhouette --mask "$folder/six.pgm" \
     --depth "$folder/faces.pgm" --silhouettes "$folder/faces.ppm" --stats "$folder/six.json"
 check "its_six_maps_lie_one_below_the_other" sh -c "head -n 2 '$folder/faces.pgm' | tail -n 1 | grep -qx '64 384'"
+check "and_none_of_them_is_missing" sh -c "[ \$(tail -c $((2 * 64 * 384)) '$folder/faces.pgm' | od -An -v -tx2 -w2 | grep -c 0000) = 0 ]"
 check "lit_and_shadowed_pixels_are_there" sh -c "for value in 0 254; do
     [ \$(tail -c 7500 '$folder/six.pgm' | od -An -v -tu1 -w1 | grep -cx ' *'\$value) -gt 200 ] || exit 1; done"
 check "one_map_at_a_time_makes_the_same_mask" sh -c "'$gnomon' render '$point' --size 100x75 --map 64 --method silhouette \
