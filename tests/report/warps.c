@@ -13,6 +13,7 @@
  *     before.png     pixels of each texel, if the map were not warped; black: none
  *     after.png      of the map as it is
  *     map.png        the depths of the map as it is
+ *     flat.png       of the map without the warp
  *     rows.png       non-orthogonal: pixels of each texel when rows are warped, and columns not yet
  *     functions.png  non-orthogonal: the function of each row; yellow moves to the right, blue to the left
  *
@@ -99,7 +100,7 @@ static int draw_frames(job *j)
     flat.mask = 1;
     flat.format = GN_NO_COLOUR;
     seen.places = memory_take((size_t)flat.width * flat.height, sizeof *seen.places);
-    if (draw(j, &j->flat, &flat, 0) || frame_camera_pass(&j->flat, &j->packed.camera, &j->why) ||
+    if (draw(j, &j->flat, &flat, 1) || frame_camera_pass(&j->flat, &j->packed.camera, &j->why) ||
         draw(j, &j->frame, &j->settings, 1))
         return -1;
     gn_whole_plane(&j->rectangle, &j->packed.light);
@@ -323,7 +324,9 @@ static int write_pictures(job *j)
 {
     const gn_grid *grid = j->frame.context->grid;
     image map = depth_picture(j->frame.map, j->columns, j->rows, 1);
-    if (write_picture(j, "map", &map) || write_plane(j) || write_stage(j, "before", BEFORE))
+    image flat = depth_picture(j->flat.map, j->columns, j->rows, 1);
+    if (write_picture(j, "map", &map) || write_picture(j, "flat", &flat) || write_plane(j) ||
+        write_stage(j, "before", BEFORE))
         return -1;
     if (grid && grid->across && (write_stage(j, "rows", ROWS) || write_functions(j, grid)))
         return -1;
