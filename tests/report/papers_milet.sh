@@ -24,7 +24,7 @@ surface=sdm:2+v3
 limited=dualct:2+v3
 
 for scene in $twelve; do "$build/gnomon" procedural "$scene" -o "$work"; done
-# A part of the castle that is a ninth of its picture: what the camera sees is a small part of the light's plane.
+# A part of the castle that is a twelfth of its picture: what the camera sees is a small part of the light's plane.
 sed 's/^camera.*/camera perspective eye 9.5 8.5 12.5 target 3.5 0 1.5 up 0 1 0 fovy 12 near 0.1 far 500/' \
     "$work/castle.scene" >"$work/detail.scene"
 found=
