@@ -13,6 +13,7 @@
  *     before.png     pixels of each texel, if the map were not warped; black: none
  *     after.png      of the map as it is
  *     map.png        the depths of the map as it is
+ *     flat.png       of the map without the warp
  *     rows.png       non-orthogonal: pixels of each texel when rows are warped, and columns not yet
  *     functions.png  non-orthogonal: the function of each row; yellow moves to the right, blue to the left
  *
@@ -32,9 +33,9 @@
 #include <string.h>
 
 enum { OUTPUT = RENDER_OPTION_COUNT, OPTION_COUNT };
-enum { SIDE = 400, LINES = 32, ONE = 1 << 30, PLACE_BITS = 30 - GN_FINE_BITS };
+enum { SIDE = 400, LINES = 32, ONE = 1 << 30 };
 
-static const option table[OPTION_COUNT] = {RENDER_OPTIONS, {"-o", "FOLDER", "where the pictures go"}};
+static const option options[OPTION_COUNT] = {RENDER_OPTIONS, {"-o", "FOLDER", "where the pictures go"}};
 
 /* ---- samples --------------------------------------------------------------------------------------------------- */
 
@@ -99,7 +100,7 @@ static int draw_frames(job *j)
     flat.mask = 1;
     flat.format = GN_NO_COLOUR;
     seen.places = memory_take((size_t)flat.width * flat.height, sizeof *seen.places);
-    if (draw(j, &j->flat, &flat, 0) || frame_camera_pass(&j->flat, &j->packed.camera, &j->why) ||
+    if (draw(j, &j->flat, &flat, 1) || frame_camera_pass(&j->flat, &j->packed.camera, &j->why) ||
         draw(j, &j->frame, &j->settings, 1))
         return -1;
     gn_whole_plane(&j->rectangle, &j->packed.light);
@@ -112,23 +113,40 @@ static int draw_frames(job *j)
 
 typedef enum stage { BEFORE, ROWS, AFTER } stage;
 
+/* From a place in 2^-30 to one in texels from the first centre, linear between centres; at the borders the map ends
+ * half a texel further. */
+static double find_place(const uint16_t *table, uint32_t count, uint32_t share)
+{
+    double fine = ldexp(share, GN_FINE_BITS - 30) - 0.5;
+    uint32_t next = 0;
+    while (next < count && table[next] <= fine)
+        next++;
+    if (next == 0)
+        return (fine - table[0]) / (2 * table[0] + 1);
+    double from = table[next - 1], width = next < count ? table[next] - from : 2 * (GN_FINE - from) - 1;
+    return next - 1 + (fine - from) / width;
+}
+
+static uint32_t find_texel(const uint16_t *table, uint32_t count, uint32_t share)
+{
+    double texel = floor(find_place(table, count, share) + 0.5);
+    return (uint32_t)fmin(fmax(texel, 0), count - 1);
+}
+
+static const uint16_t *band_of(const job *j, const gn_grid *grid, uint32_t share)
+{
+    return grid->across + (size_t)((uint64_t)share * j->rows >> 30) * j->columns;
+}
+
 /* The texel that a sample falls into, at a stage of the warp. */
 static size_t texel_of(const job *j, const place *p, stage at)
 {
     const gn_grid *grid = at == BEFORE ? 0 : j->frame.context->grid;
-    uint32_t column = gn_bin(p->x, j->columns), row = gn_bin(p->y, j->rows), half = 1u << (PLACE_BITS - 1);
-    int32_t hint = 0;
+    uint32_t column = (uint32_t)((uint64_t)p->x * j->columns >> 30), row = (uint32_t)((uint64_t)p->y * j->rows >> 30);
     if (grid) {
-        const uint16_t *across = grid->columns, *down = grid->rows;
-        if (!across)
-            across = grid->across + (size_t)gn_band(grid, (int32_t)(p->y >> PLACE_BITS)) * j->columns;
-        uint32_t u = gn_find_grid_place(across, (int32_t)j->columns, p->x - half, PLACE_BITS, &hint);
-        column = gn_texel(u, j->columns - 1, PLACE_BITS);
-        if (!down)
-            down = grid->down + (size_t)column * j->rows;
-        hint = 0;
-        uint32_t v = gn_find_grid_place(down, (int32_t)j->rows, p->y - half, PLACE_BITS, &hint);
-        row = at == ROWS ? row : gn_texel(v, j->rows - 1, PLACE_BITS);
+        column = find_texel(grid->columns ? grid->columns : band_of(j, grid, p->y), j->columns, p->x);
+        const uint16_t *down = grid->rows ? grid->rows : grid->down + (size_t)column * j->rows;
+        row = at == ROWS ? row : find_texel(down, j->rows, p->y);
     }
     return (size_t)row * j->columns + column;
 }
@@ -295,11 +313,9 @@ static int write_functions(job *j, const gn_grid *grid)
     image im = image_make(j->columns, j->rows, 3, IMAGE_U8);
     for (uint32_t y = 0; y < j->rows; y++)
         for (uint32_t x = 0; x < j->columns; x++) {
-            uint32_t at = (2 * x + 1) * (ONE / 2 / j->columns) - (1u << (PLACE_BITS - 1));
-            int32_t hint = 0;
-            uint32_t u =
-                gn_find_grid_place(grid->across + (size_t)y * j->columns, (int32_t)j->columns, at, PLACE_BITS, &hint);
-            double offset = ldexp((int32_t)u, -PLACE_BITS) / j->columns - (double)x / j->columns;
+            uint32_t share = (2 * x + 1) * (ONE / 2 / j->columns);
+            double to = find_place(grid->across + (size_t)y * j->columns, j->columns, share);
+            double offset = (to - x) / j->columns;
             uint8_t bright = (uint8_t)fmin(255, fabs(offset) * 4 * 255);
             uint8_t *out = (uint8_t *)im.samples + 3 * ((size_t)y * j->columns + x);
             out[0] = out[1] = offset > 0 ? bright : 0;
@@ -323,7 +339,9 @@ static int write_pictures(job *j)
 {
     const gn_grid *grid = j->frame.context->grid;
     image map = depth_picture(j->frame.map, j->columns, j->rows, 1);
-    if (write_picture(j, "map", &map) || write_plane(j) || write_stage(j, "before", BEFORE))
+    image flat = depth_picture(j->flat.map, j->columns, j->rows, 1);
+    if (write_picture(j, "map", &map) || write_picture(j, "flat", &flat) || write_plane(j) ||
+        write_stage(j, "before", BEFORE))
         return -1;
     if (grid && grid->across && (write_stage(j, "rows", ROWS) || write_functions(j, grid)))
         return -1;
@@ -350,7 +368,7 @@ int main(int argc, char **argv)
     const char *values[OPTION_COUNT];
     command_line line;
     job j = {.folder = 0};
-    int result = options_parse(table, OPTION_COUNT, argc - 1, argv + 1, values, &line, &j.why);
+    int result = options_parse(options, OPTION_COUNT, argc - 1, argv + 1, values, &line, &j.why);
     if (!result && (line.place_count != 1 || !values[OUTPUT]))
         result = problem_of_usage(&j.why, "%d scenes; expected SCENE -o FOLDER [options of gnomon render]",
                                   line.place_count);
