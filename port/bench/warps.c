@@ -1,0 +1,152 @@
+/* Cases of fits and warps: the rounds of the view pass, what ends them, and whole frames. */
+#include "bench.h"
+
+#include "port.h"
+#include "print.h"
+
+typedef struct chain {
+    const char *name;
+    const gn_fit *fit;
+    const gn_warp *warp;
+} chain;
+
+static const chain chains[] = {
+    {"uniform", 0, 0},
+    {"dv", &gn_desired_view, 0},
+    {"msf", &gn_minimal_frustum, 0},
+    {"rectilinear", 0, &gn_rectilinear},
+    {"distance", 0, &gn_rectilinear_distance},
+    {"nonorthogonal", 0, &gn_nonorthogonal},
+    {"msf-rectilinear", &gn_minimal_frustum, &gn_rectilinear},
+    {"dv-nonorthogonal", &gn_desired_view, &gn_nonorthogonal},
+};
+
+/* Which of chains. */
+enum { UNIFORM, DV, MSF, NONORTHOGONAL = 5, BEST = 6, CHAINS = COUNT(chains) };
+
+enum { WIDTH = 320, HEIGHT = 240, MAP_SIDE = 128 };
+
+static gn_settings settings_of(const chain *by, uint16_t width)
+{
+    gn_settings settings = gn_default_settings(width, (uint16_t)(width / 4 * 3), MAP_SIDE);
+    settings.surface = GN_SECOND;
+    settings.receiver = &gn_virtual;
+    settings.fit = by->fit;
+    settings.warp = by->warp;
+    return settings;
+}
+
+/* The case of one step of one scene. */
+static void write_step(const char *scene, const chain *by, const char *step, uint32_t number)
+{
+    port_write("case ");
+    port_write(scene);
+    port_write("-");
+    port_write(by->name);
+    port_write(step);
+    write_decimal(number);
+    port_write("\n");
+}
+
+/* Vertices and bins; of each round all regions; its end. */
+static void measure_view(const char *name, const gn_scene *scene, const chain *by, uint16_t width,
+                         const gn_camera *camera, const gn_light *light)
+{
+    gn_settings settings = settings_of(by, width);
+    gn_plan plan;
+    prepare(scene, &settings, &plan);
+    write_step(name, by, "-begin-", width);
+    mark_begin();
+    gn_status status = gn_view_begin(context, camera, light);
+    mark_end();
+    for (uint32_t round = 0; status == GN_OK && round < plan.view_rounds; round++) {
+        write_step(name, by, round ? "-second-" : "-first-", width);
+        mark_begin();
+        for (uint32_t i = 0; status == GN_OK && i < plan.camera_regions; i++)
+            status = gn_view_region(context, i, 0);
+        mark_end();
+        require(status == GN_OK, "view regions");
+        write_step(name, by, round ? "-second-end-" : "-first-end-", width);
+        mark_begin();
+        status = gn_view_end(context);
+        mark_end();
+    }
+    require(status == GN_OK, "view pass");
+}
+
+static void measure_passes(const char *name, const gn_scene *scene, const chain *by,
+                           const gn_reconstruction *reconstruction, const gn_camera *camera, const gn_light *light)
+{
+    gn_settings settings = settings_of(by, WIDTH);
+    gn_plan plan;
+    settings.reconstruction = reconstruction;
+    prepare(scene, &settings, &plan);
+    require(!plan.view_rounds || gn_view_pass(context, camera, light) == GN_OK, "view pass");
+    write_step(name, by, reconstruction ? "-silhouettes-light-" : "-light-", WIDTH);
+    mark_begin();
+    gn_status status = gn_light_pass(context, light);
+    mark_end();
+    require(status == GN_OK, "light pass");
+    write_step(name, by, reconstruction ? "-silhouettes-camera-" : "-camera-", WIDTH);
+    mark_begin();
+    status = gn_camera_pass(context, camera, discard, 0);
+    mark_end();
+    require(status == GN_OK, "camera pass");
+}
+
+static void measure_scene(const golden_scene *g)
+{
+    for (unsigned i = 0; i < CHAINS; i++) {
+        const chain *by = &chains[i];
+        if (i != UNIFORM)
+            measure_view(g->name, g->scene, by, WIDTH, g->camera, g->light);
+        measure_passes(g->name, g->scene, by, 0, g->camera, g->light);
+        if (i == UNIFORM || i == MSF || i == BEST)
+            measure_passes(g->name, g->scene, by, &gn_silhouettes, g->camera, g->light);
+    }
+}
+
+/* The room in two sizes: a pixel of each round. */
+static void measure_view_pixels(const view *v, const char *name)
+{
+    gn_scene scene = scene_of(room, 2);
+    gn_camera camera;
+    gn_light light;
+    set_up_view(v, &scene, &camera, &light);
+    for (unsigned i = DV; i <= NONORTHOGONAL; i++)
+        for (uint16_t width = WIDTH / 2; width <= WIDTH; width = (uint16_t)(width + WIDTH / 2))
+            measure_view(name, &scene, &chains[i], width, &camera, &light);
+}
+
+/* A pixel of the camera pass, all texels agreeing but at one border of the shadow. */
+static void measure_camera_pixels(const chain *by, const char *suffix, const gn_receiver *by_plane,
+                                  const gn_reconstruction *reconstruction)
+{
+    gn_scene scene = scene_of(room, 2);
+    gn_camera camera;
+    gn_light light;
+    set_up_view(&views[0], &scene, &camera, &light);
+    for (uint16_t width = WIDTH / 2; width <= WIDTH; width = (uint16_t)(width + WIDTH / 2)) {
+        gn_settings settings = settings_of(by, width);
+        settings.receiver = by_plane;
+        settings.reconstruction = reconstruction;
+        look_at_view(&scene, &settings, &camera, &light);
+        require(lit > shadowed / 4 && shadowed > lit / 4, "a view with light and shadow");
+        write_step("room", by, suffix, width);
+        measure_camera_pass(&scene, &settings, &camera, &light);
+    }
+}
+
+void measure_warps(void)
+{
+    measure_view_pixels(&views[0], "sun");
+    measure_view_pixels(&views[2], "spot");
+    for (unsigned i = 0; i < CHAINS; i++) {
+        measure_camera_pixels(&chains[i], "-point-", 0, 0);
+        measure_camera_pixels(&chains[i], "-virtual-", &gn_virtual, 0);
+        if (!chains[i].warp || chains[i].warp == &gn_rectilinear)
+            measure_camera_pixels(&chains[i], "-silhouettes-", &gn_virtual, &gn_silhouettes);
+    }
+    for (unsigned i = 0; i < GOLDEN_SCENES; i++)
+        measure_scene(&golden[i]);
+}
