@@ -48,6 +48,10 @@ static void write_step(const char *scene, const chain *by, const char *step, uin
     port_write("\n");
 }
 
+/* At most a fit and two rounds of a warp. */
+static const char *const rounds[] = {"-round1-", "-round2-", "-round3-"};
+static const char *const ends[] = {"-end1-", "-end2-", "-end3-"};
+
 /* Vertices and bins; of each round all regions; its end. */
 static void measure_view(const char *name, const gn_scene *scene, const chain *by, uint16_t width,
                          const gn_camera *camera, const gn_light *light)
@@ -60,13 +64,13 @@ static void measure_view(const char *name, const gn_scene *scene, const chain *b
     gn_status status = gn_view_begin(context, camera, light);
     mark_end();
     for (uint32_t round = 0; status == GN_OK && round < plan.view_rounds; round++) {
-        write_step(name, by, round ? "-second-" : "-first-", width);
+        write_step(name, by, rounds[round], width);
         mark_begin();
         for (uint32_t i = 0; status == GN_OK && i < plan.camera_regions; i++)
             status = gn_view_region(context, i, 0);
         mark_end();
         require(status == GN_OK, "view regions");
-        write_step(name, by, round ? "-second-end-" : "-first-end-", width);
+        write_step(name, by, ends[round], width);
         mark_begin();
         status = gn_view_end(context);
         mark_end();
