@@ -289,10 +289,10 @@ END {
     row("rectilinear, spot", "", "pixel", "spot-rectilinear-round1")
     print "a pixel of the camera pass"
     for (receiver = 1; receiver <= split("point virtual silhouettes", receivers, " "); receiver++)
-        for (warp = 1; warp <= split("uniform dv msf rectilinear nonorthogonal", warp_row, " "); warp++)
+        for (warp = 1; warp <= split("uniform dv rectilinear nonorthogonal", warp_row, " "); warp++)
             if (receivers[receiver] != "silhouettes" || warp_row[warp] != "nonorthogonal")
                 row(warp_row[warp] ", " receivers[receiver], "", "pixel", "room-" warp_row[warp] "-" receivers[receiver])
-    print "the light pass: as the same figures above"
+    print "and the light pass, as above on a uniform map"
     row("texel, rectilinear, one layer", "", "texel", "rectilinear-one", "pass")
     row("texel, rectilinear, two layers", "", "texel", "rectilinear-two", "pass")
     row("texel, nonorthogonal, one layer", "", "texel", "nonorthogonal-one", "pass")
@@ -308,19 +308,18 @@ END {
     row("fit, msf: the hull and its rectangle", "", "step", "msf", "end1")
     row("tables, rectilinear by counts", "", "step", "rectilinear", "end1")
     row("tables, rectilinear by distance", "", "step", "distance", "end1")
-    row("tables, nonorthogonal, bands", "", "step", "nonorthogonal", "end1")
-    row("tables, nonorthogonal, columns", "", "step", "nonorthogonal", "end2")
-    for (warp = 1; warp <= split("dv msf rectilinear distance nonorthogonal msf-rectilinear dv-nonorthogonal", warp_row, " "); warp++)
+    row("tables, nonorthogonal, bands", "", "step", "dv-nonorthogonal", "end2")
+    row("tables, nonorthogonal, columns", "", "step", "dv-nonorthogonal", "end3")
+    for (warp = 1; warp <= split("dv msf rectilinear msf-rectilinear dv-nonorthogonal", warp_row, " "); warp++)
         row("view pass, " warp_row[warp], "", "view", warp_row[warp])
     row("light pass, uniform", "", "step", "uniform", "light")
     row("camera pass, uniform", "", "step", "uniform", "camera")
     print "per cent of the uniform map's"
-    for (warp = 1; warp <= split("dv msf rectilinear distance nonorthogonal msf-rectilinear dv-nonorthogonal", warp_row, " "); warp++) {
+    for (warp = 1; warp <= split("dv msf rectilinear msf-rectilinear dv-nonorthogonal", warp_row, " "); warp++) {
         row(warp_row[warp] ": light pass", "", "of-uniform", warp_row[warp], "light")
         row("camera pass", "", "of-uniform", warp_row[warp], "camera")
         row("frame", "", "of-uniform", warp_row[warp], "frame")
     }
-    row("silhouettes, msf: frame", "", "of-silhouettes", "msf", "frame")
     row("silhouettes, msf-rectilinear: frame", "", "of-silhouettes", "msf-rectilinear", "frame")
     print "Limits are for " targets[1] ". Map: 320 x 320; pixels: screen-filling quad, half in shadow or all of one kind,"
     print "320 x 240 less 160 x 120."
