@@ -170,7 +170,7 @@ $(BUILD)/$(2)/%.elf: $(BUILD)/objects/$(2)/port/%.o $(call objects,$(2),$(PROGRA
 	@mkdir -p $$(@D)
 	$(quiet)$($(1)_TOOL)gcc $($(1)_FLAGS) $$($(1)_LINK) $$(filter %.o,$$^) $$(filter %.a,$$^) -lgcc -o $$@
 $(BUILD)/objects/$(2)/port/firmware.o $(BUILD)/objects/$(2)/port/bench/bench.o: $(GOLDEN_HEADERS)
-$(BUILD)/$(2)/bench/bench.elf: $(BUILD)/objects/$(2)/port/bench/edges.o
+$(BUILD)/$(2)/bench/bench.elf: $(BUILD)/objects/$(2)/port/bench/edges.o $(BUILD)/objects/$(2)/port/bench/warps.o
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN) -kernel)
 $(BUILD)/$(2)/minimal_main.txt: $(BUILD)/$(2)/minimal_main.elf

@@ -7,5 +7,5 @@ ARM_PORT = port/arm/start.c port/arm/semihosting.c port/arm/mps2_timer.c port/st
 arm_link = -nostdlib -T $(1) -Lport -Wl,--gc-sections -Wl,--no-warn-rwx-segments
 
 # Semihosting writes to standard output; an instruction takes 2^6 ns, which the boards' timers can resolve.
-ARM_RUN = timeout 300 qemu-system-arm -display none -serial none -monitor none -chardev stdio,id=console \
+ARM_RUN = timeout 900 qemu-system-arm -display none -serial none -monitor none -chardev stdio,id=console \
 	-semihosting-config enable=on,target=native,chardev=console -icount shift=6

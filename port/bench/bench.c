@@ -83,10 +83,23 @@ gn_settings light_settings(gn_surface surface)
     return settings;
 }
 
+/* All of the light's plane, evenly. */
+static void look_along_minus_z(gn_camera *camera)
+{
+    static const int32_t eye[3] = {0, 0, DEPTH}, ahead[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+    require(gn_look_at(camera, eye, ahead, up) == GN_OK, "look at");
+    require(gn_orthographic(camera, HALF, 0, 2 * DEPTH) == GN_OK, "camera");
+}
+
 void measure_light_pass_of(const gn_scene *scene, const gn_settings *settings, const gn_light *light)
 {
     gn_plan plan;
     prepare(scene, settings, &plan);
+    if (plan.view_rounds) {
+        gn_camera camera;
+        look_along_minus_z(&camera);
+        require(gn_view_pass(context, &camera, light) == GN_OK, "view pass");
+    }
     mark_begin();
     gn_status status = gn_light_pass(context, light);
     mark_end();
@@ -107,24 +120,29 @@ static const int32_t narrow_quad[4][3] = {{-HALF, -HALF, 0}, {0, -HALF, 2000}, {
 static const gn_mesh wide_mesh = {wide_quad, quad_indices, 4, 2, sizeof(uint16_t), 0, 0, 0};
 static const gn_mesh narrow_mesh = {narrow_quad, quad_indices, 4, 2, sizeof(uint16_t), 0, 0, 0};
 
+static void put(gn_model *model, int32_t z)
+{
+    gn_model_identity(model);
+    require(gn_model_translate(model, 0, 0, z) == GN_OK, "model");
+}
+
 /* Quads over all or half of the map's columns, in front of or behind one another: every texel of the last ones is
  * nearer than all before (pass) or farther (fail). */
-static void measure_texels(const char *name, const gn_mesh *mesh, gn_surface surface, int pass)
+static void measure_texels(const char *name, const gn_mesh *mesh, const gn_settings *settings, int pass)
 {
-    static gn_model models[QUADS];
-    static gn_object objects[QUADS];
+    static gn_model models[QUADS + 1];
+    static gn_object objects[QUADS + 1] = {{&wide_mesh, models, {0, 0, 0}}}; /* a floor, for the view pass */
+    put(&models[0], -DEPTH / 2);
     for (int i = 0; i < QUADS; i++) {
-        gn_model_identity(&models[i]);
-        require(gn_model_translate(&models[i], 0, 0, (pass ? 50000 : -50000) * (i - QUADS / 2)) == GN_OK, "model");
-        objects[i].mesh = mesh;
-        objects[i].model = &models[i];
-        objects[i].colour = grey;
+        put(&models[i + 1], (pass ? 50000 : -50000) * (i - QUADS / 2));
+        objects[i + 1].mesh = mesh;
+        objects[i + 1].model = &models[i + 1];
+        objects[i + 1].colour = grey;
     }
-    gn_settings settings = light_settings(surface);
     for (uint32_t count = QUADS / 2; count <= QUADS; count += QUADS / 2) {
-        gn_scene scene = scene_of(objects, count);
+        gn_scene scene = scene_of(objects, 1 + count);
         write_case(name, pass ? "-pass-" : "-fail-", count);
-        measure_light_pass(&scene, &settings);
+        measure_light_pass(&scene, settings);
     }
 }
 
@@ -190,18 +208,19 @@ static gn_mesh small_mesh(const void *indices, uint32_t vertex_count, uint32_t t
 }
 
 /* The same vertices, half or all of the triangles. */
-static void measure_small_triangles(const char *name, gn_surface surface, int back_faces)
+static void measure_small_triangles(const char *name, gn_settings settings, int back_faces)
 {
-    gn_settings settings = light_settings(surface);
+    static gn_model below;
     gn_mesh mesh = small_mesh(small_indices[back_faces], VERTICES, 0);
-    gn_object object = {&mesh, 0, {0, 0, 0}};
+    gn_object objects[2] = {{&mesh, 0, {0, 0, 0}}, {&wide_mesh, &below, {0, 0, 0}}}; /* a floor, for the view pass */
+    put(&below, -DEPTH / 2);
     if (back_faces) {
         mesh.closed = 1;
         settings.cull = GN_CULL_BACK;
     }
     for (uint32_t count = TRIANGLES / 2; count <= TRIANGLES; count += TRIANGLES / 2) {
         mesh.triangle_count = count;
-        gn_scene scene = scene_of(&object, 1);
+        gn_scene scene = scene_of(objects, 2);
         write_case(name, "-", count);
         measure_light_pass(&scene, &settings);
     }
@@ -229,7 +248,7 @@ static const int32_t occluder[4][3] = {
     {-20500, -3000, 10000}, {-7500, -3000, 10000}, {-7500, 18000, 10000}, {-20500, 18000, 10000}};
 static const gn_mesh receiver_mesh = {receiver, quad_indices, 4, 2, sizeof(uint16_t), 0, 0, 0};
 static const gn_mesh occluder_mesh = {occluder, quad_indices, 4, 2, sizeof(uint16_t), 0, 0, 0};
-static const gn_object room[] = {{&receiver_mesh, 0, {200, 180, 160}}, {&occluder_mesh, 0, {90, 90, 90}}};
+const gn_object room[2] = {{&receiver_mesh, 0, {200, 180, 160}}, {&occluder_mesh, 0, {90, 90, 90}}};
 
 const view views[VIEWS] = {
     {"perspective-directional-rgb888", 0, 0, GN_RGB888}, {"perspective-directional-rgb565", 0, 0, GN_RGB565},
@@ -284,6 +303,7 @@ void look_at_view(const gn_scene *scene, const gn_settings *settings, const gn_c
     masks.mask = 1;
     prepare(scene, &masks, &plan);
     lit = shadowed = empty = 0;
+    require(!plan.view_rounds || gn_view_pass(context, camera, light) == GN_OK, "view pass");
     require(gn_light_pass(context, light) == GN_OK, "light pass");
     require(gn_camera_pass(context, camera, count_mask, 0) == GN_OK, "camera pass");
 }
@@ -294,6 +314,7 @@ void measure_camera_pass(const gn_scene *scene, const gn_settings *settings, con
 {
     gn_plan plan;
     prepare(scene, settings, &plan);
+    require(!plan.view_rounds || gn_view_pass(context, camera, light) == GN_OK, "view pass");
     require(gn_light_pass(context, light) == GN_OK, "light pass");
     mark_begin();
     gn_status status = gn_camera_pass(context, camera, discard, 0);
@@ -408,25 +429,55 @@ static void measure_all_agreements(void)
     }
 }
 
-int main(void)
+/* Fills of maps of one surface, even or warped. */
+static void measure_fills(const char *wide, const char *narrow, const gn_settings *settings)
 {
     for (int pass = 1; pass >= 0; pass--) {
-        measure_texels("one-wide", &wide_mesh, GN_CONSTANT, pass);
-        measure_texels("one-narrow", &narrow_mesh, GN_CONSTANT, pass);
-        measure_texels("two-wide", &wide_mesh, GN_DUAL, pass);
-        measure_texels("two-narrow", &narrow_mesh, GN_DUAL, pass);
-        measure_texels("slope-wide", &wide_mesh, GN_SLOPE, pass);
-        measure_texels("slope-narrow", &narrow_mesh, GN_SLOPE, pass);
+        measure_texels(wide, &wide_mesh, settings, pass);
+        measure_texels(narrow, &narrow_mesh, settings, pass);
     }
+}
+
+static void measure_uniform_fills(void)
+{
+    const gn_settings one = light_settings(GN_CONSTANT), two = light_settings(GN_DUAL),
+                      slope = light_settings(GN_SLOPE);
+    measure_fills("one-wide", "one-narrow", &one);
+    measure_fills("two-wide", "two-narrow", &two);
+    measure_fills("slope-wide", "slope-narrow", &slope);
+    make_small_triangles();
+    measure_small_triangles("one-small", one, 0);
+    measure_small_triangles("two-small", two, 0);
+    measure_small_triangles("slope-small", slope, 0);
+    measure_small_triangles("rejected", one, 1);
+}
+
+/* The tables are those of an even view: about even, so that triangles have as many texels as on the uniform map. */
+static void measure_warped_fills(void)
+{
+    gn_settings s = light_settings(GN_CONSTANT);
+    s.width = s.height = MAP / 4;
+    s.warp = &gn_rectilinear;
+    measure_fills("rectilinear-one-wide", "rectilinear-one-narrow", &s);
+    measure_small_triangles("rectilinear-one-small", s, 0);
+    s.surface = GN_DUAL;
+    measure_fills("rectilinear-two-wide", "rectilinear-two-narrow", &s);
+    measure_small_triangles("rectilinear-two-small", s, 0);
+    s.warp = &gn_nonorthogonal;
+    measure_fills("nonorthogonal-two-wide", "nonorthogonal-two-narrow", &s);
+    measure_small_triangles("nonorthogonal-two-small", s, 0);
+    s.surface = GN_CONSTANT;
+    measure_fills("nonorthogonal-one-wide", "nonorthogonal-one-narrow", &s);
+    measure_small_triangles("nonorthogonal-one-small", s, 0);
+}
+
+int main(void)
+{
+    measure_uniform_fills();
     measure_map("one-map", GN_CONSTANT, 0);
     measure_map("two-map", GN_DUAL, 0);
     measure_map("slope-map", GN_SLOPE, 0);
     measure_map("silhouette-map", GN_DUAL, &gn_silhouettes);
-    make_small_triangles();
-    measure_small_triangles("one-small", GN_CONSTANT, 0);
-    measure_small_triangles("two-small", GN_DUAL, 0);
-    measure_small_triangles("slope-small", GN_SLOPE, 0);
-    measure_small_triangles("rejected", GN_CONSTANT, 1);
     measure_vertices();
     for (unsigned i = 0; i < VIEWS; i++)
         measure_pixels(&views[i]);
@@ -436,5 +487,7 @@ int main(void)
     measure_planes("planes-spot", &views[2]);
     measure_silhouette_maps();
     measure_volumes();
+    measure_warped_fills();
+    measure_warps();
     return 0;
 }

@@ -78,10 +78,16 @@ void look_at_view(const gn_scene *scene, const gn_settings *settings, const gn_c
 void measure_camera_pass(const gn_scene *scene, const gn_settings *settings, const gn_camera *camera,
                          const gn_light *light);
 
+extern const gn_object room[2];
+
 /* ---- edges.c ---- */
 
 void measure_planes(const char *name, const view *v);
 void measure_silhouette_maps(void);
 void measure_volumes(void);
+
+/* ---- warps.c ---- */
+
+void measure_warps(void);
 
 #endif

@@ -110,6 +110,29 @@ function quads_behind(t, by) {
     return less(t, "cap-wide-" by "-8", "cap-wide-" by "-4") - less(t, "cap-narrow-" by "-8", "cap-narrow-" by "-4")
 }
 
+# Mean over the golden scenes of a step of a chain of fit and warp, 320 x 240.
+function mean_step(t, chain, step,    names, n, i, sum) {
+    n = split("lshape torus2 table pipes pins fence", names, " ")
+    for (i = 1; i <= n; i++)
+        sum += count(t, names[i] "-" chain "-" step "-320")
+    return sum / n
+}
+
+# Every step of a view pass.
+function mean_view(t, chain,    step, sum) {
+    for (step = 1; step <= 3; step++)
+        if ((t, "lshape-" chain "-round" step "-320") in counted)
+            sum += mean_step(t, chain, "round" step) + mean_step(t, chain, "end" step)
+    return sum ? sum + mean_step(t, chain, "begin") : 0
+}
+
+# view, light, camera or frame of whole frames, on that of the uniform map; rest: "silhouettes-" or empty.
+function frames(t, chain, part, rest) {
+    if (part == "frame")
+        return mean_view(t, chain) + mean_step(t, chain, rest "light") + mean_step(t, chain, rest "camera")
+    return part == "view" ? mean_view(t, chain) : mean_step(t, chain, rest part)
+}
+
 function figure(t, kind, a, b) {
     if (kind == "texel") return texel(t, a, b)
     if (kind == "map") return less(t, a "-320", a "-160") / (160 * 320)
@@ -118,6 +141,10 @@ function figure(t, kind, a, b) {
     if (kind == "pixel") return pixel(t, a)
     if (kind == "added") return added(t, a, b)
     if (kind == "frame") return frame(t, a)
+    if (kind == "step") return mean_step(t, a, b) / 1000
+    if (kind == "view") return mean_view(t, a) / 1000
+    if (kind == "of-uniform") return 100 * frames(t, a, b) / frames(t, "uniform", b)
+    if (kind == "of-silhouettes") return 100 * frames(t, a, b, "silhouettes-") / frames(t, "uniform", b, "silhouettes-")
     if (kind == "mean") return mean_frame(t, a)
     if (kind == "plane") return plane(t, a)
     if (kind == "open") return open_pixel(t, a, b)
@@ -254,6 +281,46 @@ END {
     row("triangle, light pass, directional", 800, "facing", "facing-sun")
     row("triangle, light pass, spot", "", "facing", "facing-spot")
 
+    print "Fits and warps: a round of the view pass, a pixel"
+    for (warp = 1; warp <= split("dv msf rectilinear distance nonorthogonal", warp_row, " "); warp++)
+        row(warp_row[warp] ", directional", "", "pixel", "sun-" warp_row[warp] "-round1")
+    row("nonorthogonal, second round, directional", "", "pixel", "sun-nonorthogonal-round2")
+    row("dv, spot", "", "pixel", "spot-dv-round1")
+    row("rectilinear, spot", "", "pixel", "spot-rectilinear-round1")
+    print "a pixel of the camera pass"
+    for (receiver = 1; receiver <= split("point virtual silhouettes", receivers, " "); receiver++)
+        for (warp = 1; warp <= split("uniform dv rectilinear nonorthogonal", warp_row, " "); warp++)
+            if (receivers[receiver] != "silhouettes" || warp_row[warp] != "nonorthogonal")
+                row(warp_row[warp] ", " receivers[receiver], "", "pixel", "room-" warp_row[warp] "-" receivers[receiver])
+    print "and the light pass, as above on a uniform map"
+    row("texel, rectilinear, one layer", "", "texel", "rectilinear-one", "pass")
+    row("texel, rectilinear, two layers", "", "texel", "rectilinear-two", "pass")
+    row("texel, nonorthogonal, one layer", "", "texel", "nonorthogonal-one", "pass")
+    row("texel, nonorthogonal, two layers", "", "texel", "nonorthogonal-two", "pass")
+    row("triangle of 8 texels, rectilinear, one layer", "", "small", "rectilinear-one-small")
+    row("triangle of 8 texels, rectilinear, two layers", "", "small", "rectilinear-two-small")
+    row("triangle of 8 texels, nonorthogonal, one layer", "", "small", "nonorthogonal-one-small")
+    row("triangle of 8 texels, nonorthogonal, two layers", "", "small", "nonorthogonal-two-small")
+    print "thousands, mean over the six golden scenes, 320 x 240, map 128, virtual samples"
+    row("view pass begins: vertices, bins", "", "step", "dv", "begin")
+    row("one round, dv", "", "step", "dv", "round1")
+    row("fit, dv", "", "step", "dv", "end1")
+    row("fit, msf: the hull and its rectangle", "", "step", "msf", "end1")
+    row("tables, rectilinear by counts", "", "step", "rectilinear", "end1")
+    row("tables, rectilinear by distance", "", "step", "distance", "end1")
+    row("tables, nonorthogonal, bands", "", "step", "dv-nonorthogonal", "end2")
+    row("tables, nonorthogonal, columns", "", "step", "dv-nonorthogonal", "end3")
+    for (warp = 1; warp <= split("dv msf rectilinear msf-rectilinear dv-nonorthogonal", warp_row, " "); warp++)
+        row("view pass, " warp_row[warp], "", "view", warp_row[warp])
+    row("light pass, uniform", "", "step", "uniform", "light")
+    row("camera pass, uniform", "", "step", "uniform", "camera")
+    print "per cent of the uniform map's"
+    for (warp = 1; warp <= split("dv msf rectilinear msf-rectilinear dv-nonorthogonal", warp_row, " "); warp++) {
+        row(warp_row[warp] ": light pass", "", "of-uniform", warp_row[warp], "light")
+        row("camera pass", "", "of-uniform", warp_row[warp], "camera")
+        row("frame", "", "of-uniform", warp_row[warp], "frame")
+    }
+    row("silhouettes, msf-rectilinear: frame", "", "of-silhouettes", "msf-rectilinear", "frame")
     print "Limits are for " targets[1] ". Map: 320 x 320; pixels: screen-filling quad, half in shadow or all of one kind,"
     print "320 x 240 less 160 x 120."
     exit failed

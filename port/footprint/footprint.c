@@ -24,6 +24,20 @@
 #ifndef FOOTPRINT_RECONSTRUCTION
 #define FOOTPRINT_RECONSTRUCTION 0
 #endif
+#ifndef FOOTPRINT_FIT
+#define FOOTPRINT_FIT 0
+#define FOOTPRINT_WARP 0
+#define FOOTPRINT_VIEW_PASS 0
+#endif
+#ifndef FOOTPRINT_WARP
+#define FOOTPRINT_WARP 0
+#endif
+#ifndef FOOTPRINT_VIEW_PASS
+#define FOOTPRINT_VIEW_PASS 1
+#endif
+#ifndef FOOTPRINT_MAP
+#define FOOTPRINT_MAP 128
+#endif
 /* Rows of a region of the map and of the image; 0: as gn_make_plan takes them. */
 #ifndef FOOTPRINT_MAP_ROWS
 #define FOOTPRINT_MAP_ROWS 0
@@ -56,13 +70,15 @@ static void write_bytes(const char *name, uint32_t bytes)
 
 static gn_settings settings_with(uint16_t map_rows)
 {
-    gn_settings settings = gn_default_settings(320, 240, 128);
+    gn_settings settings = gn_default_settings(320, 240, FOOTPRINT_MAP);
     settings.mask = 1;
     settings.shadow = FOOTPRINT_SHADOW;
     settings.surface = FOOTPRINT_SURFACE;
     settings.bias.value = FOOTPRINT_BIAS_TEXELS << 16;
     settings.receiver = FOOTPRINT_RECEIVER;
     settings.reconstruction = FOOTPRINT_RECONSTRUCTION;
+    settings.fit = FOOTPRINT_FIT;
+    settings.warp = FOOTPRINT_WARP;
     settings.region_height = FOOTPRINT_IMAGE_ROWS;
     settings.map_rows = map_rows;
     return settings;
@@ -78,6 +94,11 @@ static void write_building(const char *name, uint16_t map_rows)
 
 static gn_status light_pass(gn_context *context)
 {
+    if (FOOTPRINT_VIEW_PASS) {
+        gn_status status = gn_view_pass(context, &footprint_camera, &footprint_light);
+        if (status != GN_OK)
+            return status;
+    }
     return FOOTPRINT_SHADOW == GN_SHADOW_VOLUMES ? gn_volumes_light(context, &footprint_light)
                                                  : gn_light_pass(context, &footprint_light);
 }

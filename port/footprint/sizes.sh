@@ -81,6 +81,9 @@ job "box 5 x 5 with virtual samples" footprint_virtual_box
 job "mixed surfaces with virtual samples" footprint_mixed
 job "the same with silhouettes, small regions" footprint_silhouette
 job "the same with crossings, small regions" footprint_crossing
+job "second depth, point, desired view" footprint_fit
+job "msf+rectilinear, mixed, silhouettes" footprint_rectilinear
+job "dv+nonorthogonal, map 80 x 80, virtual" footprint_nonorthogonal
 job "shadow volumes" footprint_volumes $volumes_flash_limit
 echo
 echo "Silhouettes take $(($(flash_of footprint_silhouette) - $(flash_of footprint_mixed))) bytes of flash, \

@@ -148,6 +148,8 @@ END
     cat "$work/table"
 } >"$work/plain"
 illustrate <"$work/plain" >"$work/stability.md"
+sed -n '/^## A slow camera move/,$p' "$docs/stability.md" >"$work/move" # of stability_frames.sh
+[ ! -s "$work/move" ] || { echo && cat "$work/move"; } >>"$work/stability.md"
 
 if grep '\*\*Not met' "$work/stability.md" >&2; then
     echo "not as derived: $docs is left as it was" >&2
