@@ -23,7 +23,7 @@ typedef struct band {
 static band make_band(const gn_grid *grid, const gn_rows *rows, const gn_chain *from, const gn_chain *to,
                       int32_t number)
 {
-    band b;
+    band b = {0, 0, 0, 0, 0, 0};
     uint32_t height = (uint32_t)grid->height;
     b.row = (int32_t)((((uint32_t)number << GN_FINE_BITS) + height - 1) / height);
     b.end = (int32_t)((((uint32_t)(number + 1) << GN_FINE_BITS) + height - 1) / height);
