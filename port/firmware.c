@@ -2,14 +2,15 @@
  * word sizes and byte orders can be compared. The scenes are packed once, on the build host, and lie in flash.
  *
  *     hash SCENE METHOD STAGE HASH          stages: warp and silhouettes where there are, layers, map, mask, colour;
- *                                           shadow volumes: mask, colour; axes: cameras and lights set up here
+ *                                           shadow volumes and point lights with one map at a time: mask, colour;
+ *                                           axes: cameras and lights set up here
  *     cost SCENE METHOD view N light N camera N    instructions, where the port counts them; 0 without a view pass
  *     memory plan N stack N                 bytes: of the largest context, and of stack at its deepest
  *
  * Each method runs twice, with the plan's regions and with small ones of our own, which the view pass takes from the
- * last to the first: equal hashes are required. Exit status 0: every stage ran, every method made light and shadow,
- * those that filter, and no other, fractions, those with silhouettes a map that holds some, and those with a warp
- * texels that lie unevenly. */
+ * last to the first, as does a point light its faces: equal hashes are required. Exit status 0: every stage ran, every
+ * method made light and shadow, those that filter, and no other, fractions, those with silhouettes a map that holds
+ * some, those with a warp texels that lie unevenly, and those with six maps casters on several of them. */
 #include "gnomon.h"
 #include "port.h"
 #include "print.h"
@@ -42,8 +43,9 @@ static const golden_scene scenes[] = {
 };
 
 /* A scene as it was packed; or MOVED: seen by an orthographic camera, its last object turned and mirrored by a model
- * matrix, and a spot light's near plane pushed into it; or SOUP: its last object's mesh without edges. */
-typedef enum staging { AS_PACKED, MOVED, SOUP } staging;
+ * matrix, and a spot light's near plane pushed into it; or SOUP: its last object's mesh without edges; or a point
+ * light in place of its own, LAMP_BEHIND most of it, or LAMP_WITHIN: near its middle. */
+typedef enum staging { AS_PACKED, MOVED, SOUP, LAMP_BEHIND, LAMP_WITHIN } staging;
 
 typedef struct method {
     const char *name;
@@ -60,6 +62,7 @@ typedef struct method {
     gn_q16_16 smoothing;
     uint8_t fit_depth;
     gn_shadow shadow;
+    const gn_faces *faces;
     staging staging;
 } method;
 
@@ -78,8 +81,8 @@ typedef struct method {
     }
 enum { SLOPE_1 = 1 << 16, SLOPE_2 = 2 << 16, SMOOTHING_2 = 2 << 16 };
 
-/* Every virtual surface, receiver, reconstruction, fit and kind of warp, over maps that each must be right for, in both
- * staging. */
+/* Every virtual surface, receiver, reconstruction, fit, kind of warp and of faces, over maps that each must be right
+ * for, in both staging. */
 static const method methods[] = {
     {.name = "constant", .cull = GN_CULL_NONE, .layers = GN_LAYERS_FIRST, .format = GN_RGB888, .bias = RANGE_50TH},
     {.name = "midpoint", .surface = GN_MIDPOINT, .cull = GN_CULL_NONE, .layers = GN_LAYERS_TWO, .format = GN_RGB565},
@@ -202,13 +205,34 @@ static const method methods[] = {
      .fit = &gn_minimal_frustum,
      .warp = &gn_rectilinear},
     {.name = "vertices", .format = GN_RGB565, .bias = RANGE_50TH, .warp = &gn_nonorthogonal_vertices},
+    {.name = "silhouette-lamp",
+     .surface = GN_MIXED,
+     .format = GN_RGB888,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_silhouettes,
+     .faces = &gn_six_faces,
+     .staging = LAMP_BEHIND},
+    {.name = "dual-lamp",
+     .surface = GN_DUAL,
+     .format = GN_RGB565,
+     .bias = TEXELS_2,
+     .faces = &gn_six_faces,
+     .staging = LAMP_WITHIN},
+    {.name = "pcf3-lamp",
+     .surface = GN_SECOND,
+     .format = GN_RGB565,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_box_3x3,
+     .faces = &gn_one_face,
+     .staging = LAMP_BEHIND},
     {.name = "volumes", .format = GN_RGB888, .shadow = GN_SHADOW_VOLUMES},
     {.name = "volumes-moved", .format = GN_RGB565, .shadow = GN_SHADOW_VOLUMES, .staging = MOVED},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-static uint64_t memory[100 * 1024];
+static uint64_t memory[144 * 1024]; /* six maps of the build that trades memory for speed take most of it */
 
 /* Whole planes, put together from regions, so that hashes do not depend on how the work was cut. */
 static gn_depth layers[2][MAP * MAP];
@@ -217,6 +241,7 @@ static uint8_t mask[WIDTH * HEIGHT];
 static uint16_t colour[WIDTH * HEIGHT][3]; /* r, g, b; or one RGB565 value and two zeros */
 
 enum { WARP_STAGE, LAYERS_STAGE, MAP_STAGE, SILHOUETTES_STAGE, MASK_STAGE, COLOUR_STAGE, STAGES };
+enum { FACES = 6, LEAST_FACES = 4 }; /* of a point light; of them, how many must hold casters */
 static const char *const stage_names[STAGES] = {"warp", "layers", "map", "silhouettes", "mask", "colour"};
 
 typedef struct result {
@@ -227,6 +252,7 @@ typedef struct result {
     int fractions;
     uint32_t silhouettes; /* bytes of their map that hold some */
     uint32_t uneven;      /* texels that do not lie where those of a uniform map do */
+    uint32_t faces;       /* of a point light that hold casters */
 } result;
 
 static void write_field(const char *text)
@@ -400,14 +426,12 @@ static gn_status see_view(result *out, gn_context *context, const gn_plan *plan,
     return status;
 }
 
-/* The light pass in steps, so that the layers can be seen before they are resolved. */
-static gn_status light_pass(gn_context *context, const gn_plan *plan, const gn_light *light, uint32_t *instructions)
+/* The regions of a light pass in steps, so that the layers can be seen before they are resolved. */
+static gn_status light_regions(gn_context *context, uint32_t regions, uint32_t *instructions)
 {
-    uint32_t start = port_instructions();
-    gn_status status = gn_light_begin(context, light);
-    *instructions = port_instructions() - start;
-    for (uint32_t region = 0; status == GN_OK && region < plan->light_regions; region++) {
-        start = port_instructions();
+    gn_status status = GN_OK;
+    for (uint32_t region = 0; status == GN_OK && region < regions; region++) {
+        uint32_t start = port_instructions();
         status = gn_light_layers(context, region, 0);
         *instructions += port_instructions() - start;
         if (status != GN_OK)
@@ -438,6 +462,7 @@ static gn_settings settings_of(const method *by, int small_regions)
     settings.warp = by->warp;
     settings.smoothing = by->smoothing;
     settings.fit_depth = by->fit_depth;
+    settings.faces = by->faces;
     settings.mask = 1;
     if (small_regions) {
         settings.map_rows = 24;
@@ -447,14 +472,62 @@ static gn_settings settings_of(const method *by, int small_regions)
     return settings;
 }
 
-static gn_status render_map(result *out, gn_context *context, const gn_plan *plan, const golden_scene *golden)
+static void clear_planes(void)
 {
     for (uint32_t i = 0; i < MAP * MAP; i++)
         layers[0][i] = layers[1][i] = map[i] = 0;
-    gn_status status = light_pass(context, plan, golden->light, &out->light_instructions);
+}
+
+static gn_status render_map(result *out, gn_context *context, const gn_plan *plan, const golden_scene *golden)
+{
+    clear_planes();
+    uint32_t start = port_instructions();
+    gn_status status = gn_light_begin(context, golden->light);
+    out->light_instructions = port_instructions() - start;
+    if (status == GN_OK)
+        status = light_regions(context, plan->light_regions, &out->light_instructions);
     out->stages[LAYERS_STAGE] = hash_depths(hash_depths(stage_hash_init(), layers[0]), layers[1]);
     out->stages[MAP_STAGE] = hash_depths(stage_hash_init(), map);
     out->stages[SILHOUETTES_STAGE] = hash_silhouettes(context, &out->silhouettes);
+    return status;
+}
+
+/* One of a point light's maps; planes of a face without casters stay zero. hashes: of the stages from layers on. */
+static gn_status render_face(result *out, gn_context *context, const golden_scene *golden, uint32_t face,
+                             stage_hash hashes[STAGES])
+{
+    uint32_t regions = 0, silhouettes = 0, start = port_instructions();
+    gn_status status = gn_light_face(context, golden->light, face, &regions);
+    out->light_instructions += port_instructions() - start;
+    clear_planes();
+    if (status == GN_OK)
+        status = light_regions(context, regions, &out->light_instructions);
+    hashes[LAYERS_STAGE] = hash_depths(hash_depths(stage_hash_init(), layers[0]), layers[1]);
+    hashes[MAP_STAGE] = hash_depths(stage_hash_init(), map);
+    hashes[SILHOUETTES_STAGE] = regions ? hash_silhouettes(context, &silhouettes) : stage_hash_init();
+    out->silhouettes += silhouettes;
+    out->faces += regions > 0;
+    return status;
+}
+
+/* All six, from the first to the last or backwards; a stage's hash is that of its hashes of the faces. */
+static gn_status render_faces(result *out, gn_context *context, const golden_scene *golden, int backwards)
+{
+    static stage_hash hashes[FACES][STAGES];
+    gn_status status = GN_OK;
+    out->light_instructions = out->silhouettes = out->faces = 0;
+    for (uint32_t i = 0; status == GN_OK && i < FACES; i++) {
+        uint32_t face = backwards ? FACES - 1 - i : i;
+        status = render_face(out, context, golden, face, hashes[face]);
+    }
+    for (int stage = LAYERS_STAGE; stage <= SILHOUETTES_STAGE; stage++) {
+        out->stages[stage] = stage_hash_init();
+        for (uint32_t face = 0; face < FACES; face++) {
+            stage_hash hash = hashes[face][stage];
+            out->stages[stage] = stage_hash_u32(out->stages[stage], (uint32_t)(hash >> 32));
+            out->stages[stage] = stage_hash_u32(out->stages[stage], (uint32_t)hash);
+        }
+    }
     return status;
 }
 
@@ -466,13 +539,33 @@ static gn_status find_volumes(result *out, gn_context *context, const golden_sce
     return status;
 }
 
+/* What comes before the image and stays; of a point light with one map at a time: nothing. */
+static gn_status see_light(result *out, gn_context *context, const gn_plan *plan, const golden_scene *golden,
+                           const method *by, int small_regions)
+{
+    out->light_instructions = 0;
+    if (by->shadow == GN_SHADOW_VOLUMES)
+        return find_volumes(out, context, golden);
+    if (by->faces == &gn_six_faces)
+        return render_faces(out, context, golden, small_regions);
+    return by->faces ? GN_OK : render_map(out, context, plan, golden);
+}
+
+static gn_status see_image(gn_context *context, const golden_scene *golden, const method *by)
+{
+    gn_format format = by->format;
+    if (by->shadow == GN_SHADOW_VOLUMES)
+        return gn_volumes_pass(context, golden->camera, keep_pixels, &format);
+    if (by->faces == &gn_one_face)
+        return gn_point_pass(context, golden->light, golden->camera, keep_pixels, &format);
+    return gn_camera_pass(context, golden->camera, keep_pixels, &format);
+}
+
 static void render(result *out, const golden_scene *golden, const method *by, int small_regions)
 {
     gn_settings settings = settings_of(by, small_regions);
     gn_plan plan;
     gn_context *context;
-    gn_format format = by->format;
-    int volumes = by->shadow == GN_SHADOW_VOLUMES;
 
     gn_status status = gn_make_plan(&plan, golden->scene, &settings);
     if (status != GN_OK)
@@ -488,19 +581,18 @@ static void render(result *out, const golden_scene *golden, const method *by, in
     if (status != GN_OK)
         fail("view", golden, by, status);
 
-    status = volumes ? find_volumes(out, context, golden) : render_map(out, context, &plan, golden);
+    status = see_light(out, context, &plan, golden, by, small_regions);
     if (status != GN_OK)
         fail("light", golden, by, status);
 
     uint32_t start = port_instructions();
-    status = volumes ? gn_volumes_pass(context, golden->camera, keep_pixels, &format)
-                     : gn_camera_pass(context, golden->camera, keep_pixels, &format);
+    status = see_image(context, golden, by);
     if (status != GN_OK)
         fail("camera", golden, by, status);
     out->camera_instructions = port_instructions() - start;
     look_at_mask(out);
     out->stages[MASK_STAGE] = hash_bytes(stage_hash_init(), mask, WIDTH * HEIGHT);
-    out->stages[COLOUR_STAGE] = hash_colour(stage_hash_init(), format);
+    out->stages[COLOUR_STAGE] = hash_colour(stage_hash_init(), by->format);
 }
 
 /* What a scene consists of that is not as it was packed. */
@@ -534,22 +626,45 @@ static void take_edges_away(gn_object *object)
     object->mesh = &soup;
 }
 
+/* The box of a light from above says how large the scene is. */
+static gn_status light_from_above(gn_light *sun, const gn_scene *scene)
+{
+    static const int32_t down[3] = {0, -1, 0};
+    gn_status status = gn_directional_light(sun, down, 0);
+    return status == GN_OK ? gn_fit_light(sun, scene) : status;
+}
+
 static void move(const golden_scene *golden, const method *by, gn_object *last)
 {
-    static const int32_t axis[3] = {1, 3, 2}, down[3] = {0, -1, 0};
+    static const int32_t axis[3] = {1, 3, 2};
     gn_light sun = {0};
     last->model = &moved_model;
     gn_model_identity(&moved_model);
     int status = gn_model_scale(&moved_model, -32768, 32768, 32768);
     status |= gn_model_rotate(&moved_model, axis, GN_DEGREES(25));
-    /* the box of a light from above says how large the scene is */
-    status |= gn_directional_light(&sun, down, 0);
-    status |= gn_fit_light(&sun, golden->scene);
+    status |= light_from_above(&sun, golden->scene);
     status |= gn_orthographic(&staged_camera, sun.box_width / 4, golden->camera->near_depth, golden->camera->far_depth);
     if (status != GN_OK)
         fail("move", golden, by, status);
     if (staged_light.kind == GN_SPOT)
         staged_light.near_depth += (staged_light.far_depth - staged_light.near_depth) / 4;
+}
+
+/* A lamp somewhat below the scene's top. Behind: long shadows towards the camera; within: shadows on most faces. */
+static void hang_lamp(const golden_scene *golden, const method *by)
+{
+    gn_light sun = {0};
+    int32_t position[3];
+    int status = light_from_above(&sun, golden->scene);
+    int32_t sixteenths_u = by->staging == LAMP_WITHIN ? 7 : 6, sixteenths_v = by->staging == LAMP_WITHIN ? 6 : 4;
+    int64_t u = sun.box_u + sun.box_width / 16 * sixteenths_u, v = sun.box_v + sun.box_height / 16 * sixteenths_v;
+    int64_t z = sun.box_z + sun.box_depth / 8;
+    for (int i = 0; i < 3; i++)
+        position[i] = (int32_t)((u * sun.right[i] + v * sun.up[i] + z * sun.forward[i]) / (1 << 30));
+    int32_t reach = sun.box_width + sun.box_depth;
+    status |= gn_point_light(&staged_light, position, reach / 64, reach);
+    if (status != GN_OK)
+        fail("lamp", golden, by, status);
 }
 
 static golden_scene stage(const golden_scene *packed, const method *by)
@@ -560,8 +675,10 @@ static golden_scene stage(const golden_scene *packed, const method *by)
     gn_object *last = copy_scene(packed, by);
     if (by->staging == MOVED)
         move(packed, by, last);
-    else
+    else if (by->staging == SOUP)
         take_edges_away(last);
+    else
+        hang_lamp(packed, by);
     return staged;
 }
 
@@ -659,7 +776,7 @@ static int has_stage(const method *by, int stage)
         return has_view(by);
     if (stage == SILHOUETTES_STAGE)
         return has_silhouettes(by);
-    return stage >= MASK_STAGE || by->shadow != GN_SHADOW_VOLUMES;
+    return stage >= MASK_STAGE || (by->shadow != GN_SHADOW_VOLUMES && by->faces != &gn_one_face);
 }
 
 static int has_fractions(const method *by)
@@ -689,6 +806,8 @@ static size_t render_method(const golden_scene *packed, const method *by)
         fail("no-silhouette", &golden, by, 0);
     if (by->warp && !whole.uneven)
         fail("no-warp", &golden, by, 0);
+    if (by->faces == &gn_six_faces && whole.faces < LEAST_FACES)
+        fail("too-few-faces", &golden, by, -(int)whole.faces);
     write_cost_line(golden.name, by->name, &whole);
     return whole.plan_bytes > parts.plan_bytes ? whole.plan_bytes : parts.plan_bytes;
 }
@@ -696,7 +815,8 @@ static size_t render_method(const golden_scene *packed, const method *by)
 /* What tests pixels in a way of its own does so in four scenes: the other two would double the time of slow targets. */
 static int is_left_out(const golden_scene *golden, const method *by)
 {
-    return golden->many_triangles && (by->receiver || by->reconstruction || by->surface == GN_SLOPE || has_view(by));
+    return golden->many_triangles &&
+           (by->receiver || by->reconstruction || by->surface == GN_SLOPE || has_view(by) || by->faces);
 }
 
 int main(void)
