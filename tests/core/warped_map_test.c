@@ -903,11 +903,17 @@ static gn_status views_about(gn_light *light, gn_camera *camera, const gn_scene 
 /* Beyond the outermost centres the slack of wide texels does not hold: no table of a view pass leaves so much there. */
 static void reach_both_ends(gn_context *context)
 {
-    const gn_settings *s = &context->settings;
-    if (!context->grid->columns)
-        return;
-    context->fitting->columns[0] = context->fitting->rows[0] = 0;
-    context->fitting->columns[s->map_width - 1] = context->fitting->rows[s->map_height - 1] = GN_FINE - 1;
+    gn_fitting *f = context->fitting;
+    int32_t width = context->settings.map_width, height = context->settings.map_height;
+    int32_t bands = context->grid->columns ? 1 : height, columns = context->grid->columns ? 1 : width;
+    for (int32_t i = 0; i < bands; i++) {
+        f->columns[i * width] = 0;
+        f->columns[(i + 1) * width - 1] = GN_FINE - 1;
+    }
+    for (int32_t i = 0; i < columns; i++) {
+        f->rows[i * height] = 0;
+        f->rows[(i + 1) * height - 1] = GN_FINE - 1;
+    }
 }
 
 /* Render a lone shape and count the pixels that shadow themselves. */
