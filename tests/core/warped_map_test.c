@@ -900,9 +900,25 @@ static gn_status views_about(gn_light *light, gn_camera *camera, const gn_scene 
     return status == GN_OK ? gn_fit_light(light, scene) : status;
 }
 
+/* Beyond the outermost centres the slack of wide texels does not hold: no table of a view pass leaves so much there. */
+static void reach_both_ends(gn_context *context)
+{
+    gn_fitting *f = context->fitting;
+    int32_t width = context->settings.map_width, height = context->settings.map_height;
+    int32_t bands = context->grid->columns ? 1 : height, columns = context->grid->columns ? 1 : width;
+    for (int32_t i = 0; i < bands; i++) {
+        f->columns[i * width] = 0;
+        f->columns[(i + 1) * width - 1] = GN_FINE - 1;
+    }
+    for (int32_t i = 0; i < columns; i++) {
+        f->rows[i * height] = 0;
+        f->rows[(i + 1) * height - 1] = GN_FINE - 1;
+    }
+}
+
 /* Render a lone shape and count the pixels that shadow themselves. */
 static void count_self_shadow(uint64_t n, self_shadow *count, const gn_receiver *receiver, const gn_warp *warp,
-                              int closed)
+                              int closed, int any_table)
 {
     static uint32_t triangle[SEEN_SIDE * SEEN_SIDE];
     shape lone = shape_new(closed);
@@ -916,10 +932,10 @@ static void count_self_shadow(uint64_t n, self_shadow *count, const gn_receiver 
     if (closed)
         make_solid(&lone);
     else
-        make_plane(&lone, between(0, 1) ? 1 : between(2, 8));
+        make_plane(&lone, any_table ? between(8, 24) : between(0, 1) ? 1 : between(2, 8));
     gn_settings s = gn_default_settings(SEEN_SIDE, SEEN_SIDE, 1);
-    s.map_width = (uint16_t)between(24, 200);
-    s.map_height = (uint16_t)between(24, 200);
+    s.map_width = (uint16_t)between(24, any_table ? 100 : 200);
+    s.map_height = (uint16_t)between(24, any_table ? 100 : 200);
     s.format = GN_NO_COLOUR;
     s.mask = 1;
     s.region_height = SEEN_SIDE;
@@ -934,6 +950,10 @@ static void count_self_shadow(uint64_t n, self_shadow *count, const gn_receiver 
         status = frame_start(&f, &scene, &s);
     if (status == GN_OK && f.plan.view_rounds)
         status = gn_view_pass(f.context, &camera, &light);
+    if (status == GN_OK && any_table) {
+        set_tables(f.context);
+        reach_both_ends(f.context);
+    }
     if (status == GN_OK)
         status = gn_light_pass(f.context, &light);
     if (status == GN_OK)
@@ -972,15 +992,17 @@ static void lone_shapes_do_not_shadow_themselves(uint64_t cases)
         const gn_receiver *receiver;
         int closed;
         uint32_t forgiven; /* a million */
-    } what[] = {{"lone planes, virtual samples everywhere", &gn_virtual_always, 0, 0},
-                {"lone planes, the rule of three", &gn_virtual, 0, 200},
-                {"lone solids, second depth, virtual samples everywhere", &gn_virtual_always, 1, 0},
-                {"lone solids, second depth, the rule of three", &gn_virtual, 1, 0}};
+        int any_table;
+    } what[] = {{"lone planes, virtual samples everywhere", &gn_virtual_always, 0, 0, 0},
+                {"lone planes of small triangles, any tables", &gn_virtual_always, 0, 0, 1},
+                {"lone planes, the rule of three", &gn_virtual, 0, 200, 0},
+                {"lone solids, second depth, virtual samples everywhere", &gn_virtual_always, 1, 0, 0},
+                {"lone solids, second depth, the rule of three", &gn_virtual, 1, 0, 0}};
     for (int w = 0; w < 3; w++)
-        for (int i = 0; i < 4; i++) {
+        for (int i = 0; i < 5; i++) {
             self_shadow count = {0, 0, 0, 0};
             for (uint64_t n = 0; n < cases; n++)
-                count_self_shadow(n, &count, what[i].receiver, warps[w], what[i].closed);
+                count_self_shadow(n, &count, what[i].receiver, warps[w], what[i].closed, what[i].any_table);
             ok(!count.failures && count.shadowed <= count.turned * what[i].forgiven / 1000000 &&
                    count.turned > 10 * cases && count.away > 10 * cases,
                "%s: %s: %llu of %llu pixels shadow themselves, %llu are turned away", warp_name(warps[w]), what[i].name,
