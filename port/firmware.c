@@ -2,8 +2,8 @@
  * word sizes and byte orders can be compared. The scenes are packed once, on the build host, and lie in flash.
  *
  *     hash SCENE METHOD STAGE HASH          stages: warp and silhouettes where there are, layers, map, mask, colour;
- *                                           shadow volumes: mask, colour; axes: cameras and lights set up here
- *     cost SCENE METHOD view N light N camera N    instructions, where the port counts them; 0 without a view pass
+ *                                           shadow volumes, point lights: mask, colour; axes: cameras and lights set up
+ * here cost SCENE METHOD view N light N camera N    instructions, where the port counts them; 0 without a view pass
  *     memory plan N stack N                 bytes: of the largest context, and of stack at its deepest
  *
  * Each method runs twice, with the plan's regions and with small ones of our own, which the view pass takes from the
@@ -42,8 +42,9 @@ static const golden_scene scenes[] = {
 };
 
 /* A scene as it was packed; or MOVED: seen by an orthographic camera, its last object turned and mirrored by a model
- * matrix, and a spot light's near plane pushed into it; or SOUP: its last object's mesh without edges. */
-typedef enum staging { AS_PACKED, MOVED, SOUP } staging;
+ * matrix, and a spot light's near plane pushed into it; or SOUP: its last object's mesh without edges; or LAMP: under a
+ * point light. */
+typedef enum staging { AS_PACKED, MOVED, SOUP, LAMP } staging;
 
 typedef struct method {
     const char *name;
@@ -57,6 +58,7 @@ typedef struct method {
     const gn_reconstruction *reconstruction;
     const gn_fit *fit;
     const gn_warp *warp;
+    const gn_faces *faces;
     gn_q16_16 smoothing;
     uint8_t fit_depth;
     gn_shadow shadow;
@@ -202,6 +204,22 @@ static const method methods[] = {
      .fit = &gn_minimal_frustum,
      .warp = &gn_rectilinear},
     {.name = "vertices", .format = GN_RGB565, .bias = RANGE_50TH, .warp = &gn_nonorthogonal_vertices},
+    {.name = "point",
+     .surface = GN_MIXED,
+     .format = GN_RGB888,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_silhouettes,
+     .faces = &gn_six_faces,
+     .staging = LAMP},
+    {.name = "point-one",
+     .surface = GN_DUAL,
+     .format = GN_RGB565,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual,
+     .reconstruction = &gn_box_3x3,
+     .faces = &gn_one_face,
+     .staging = LAMP},
     {.name = "volumes", .format = GN_RGB888, .shadow = GN_SHADOW_VOLUMES},
     {.name = "volumes-moved", .format = GN_RGB565, .shadow = GN_SHADOW_VOLUMES, .staging = MOVED},
 };
@@ -424,7 +442,7 @@ static gn_status light_pass(gn_context *context, const gn_plan *plan, const gn_l
 
 static gn_settings settings_of(const method *by, int small_regions)
 {
-    gn_settings settings = gn_default_settings(WIDTH, HEIGHT, MAP);
+    gn_settings settings = gn_default_settings(WIDTH, HEIGHT, by->faces ? MAP / 2 : MAP); /* six of them */
     settings.shadow = (uint8_t)by->shadow;
     settings.surface = (uint8_t)by->surface;
     settings.cull = (uint8_t)by->cull;
@@ -436,6 +454,7 @@ static gn_settings settings_of(const method *by, int small_regions)
     settings.reconstruction = by->reconstruction;
     settings.fit = by->fit;
     settings.warp = by->warp;
+    settings.faces = by->faces;
     settings.smoothing = by->smoothing;
     settings.fit_depth = by->fit_depth;
     settings.mask = 1;
@@ -466,6 +485,29 @@ static gn_status find_volumes(result *out, gn_context *context, const golden_sce
     return status;
 }
 
+/* Six maps that stay, or, in one pass, the faces that are needed; of one map at a time always that. */
+static gn_status render_point_light(result *out, gn_context *context, const golden_scene *golden, gn_format *format,
+                                    int in_one)
+{
+    uint32_t start = port_instructions();
+    out->light_instructions = 0;
+    gn_status status = in_one ? GN_OK : gn_light_faces(context, golden->light);
+    if (!in_one)
+        out->light_instructions = port_instructions() - start;
+    if (status == GN_OK)
+        status = in_one ? gn_point_pass(context, golden->light, golden->camera, keep_pixels, format)
+                        : gn_camera_pass(context, golden->camera, keep_pixels, format);
+    out->camera_instructions = port_instructions() - start - out->light_instructions;
+    return status;
+}
+
+static void hash_picture(result *out, gn_format format)
+{
+    look_at_mask(out);
+    out->stages[MASK_STAGE] = hash_bytes(stage_hash_init(), mask, WIDTH * HEIGHT);
+    out->stages[COLOUR_STAGE] = hash_colour(stage_hash_init(), format);
+}
+
 static void render(result *out, const golden_scene *golden, const method *by, int small_regions)
 {
     gn_settings settings = settings_of(by, small_regions);
@@ -483,6 +525,13 @@ static void render(result *out, const golden_scene *golden, const method *by, in
     out->plan_bytes = plan.bytes;
 
     out->view_instructions = 0;
+    if (by->faces) {
+        status = render_point_light(out, context, golden, &format, small_regions || by->faces == &gn_one_face);
+        if (status != GN_OK)
+            fail("point light", golden, by, status);
+        hash_picture(out, format);
+        return;
+    }
     if (has_view(by))
         status = see_view(out, context, &plan, golden, small_regions);
     if (status != GN_OK)
@@ -498,9 +547,7 @@ static void render(result *out, const golden_scene *golden, const method *by, in
     if (status != GN_OK)
         fail("camera", golden, by, status);
     out->camera_instructions = port_instructions() - start;
-    look_at_mask(out);
-    out->stages[MASK_STAGE] = hash_bytes(stage_hash_init(), mask, WIDTH * HEIGHT);
-    out->stages[COLOUR_STAGE] = hash_colour(stage_hash_init(), format);
+    hash_picture(out, format);
 }
 
 /* What a scene consists of that is not as it was packed. */
@@ -552,6 +599,23 @@ static void move(const golden_scene *golden, const method *by, gn_object *last)
         staged_light.near_depth += (staged_light.far_depth - staged_light.near_depth) / 4;
 }
 
+/* A point light above the scene, beside its middle. */
+static void light_lamp(const golden_scene *golden, const method *by)
+{
+    static const int32_t down[3] = {0, -1, 0}, south[3] = {0, 0, -1};
+    gn_light sun = {0};
+    int status = gn_directional_light(&sun, down, south);
+    status |= gn_fit_light(&sun, golden->scene);
+    /* right is +x or -x, up is -z, forward is -y */
+    int32_t middle_u = sun.box_u + sun.box_width / 2, middle_v = sun.box_v + sun.box_height / 2;
+    int32_t position[3] = {sun.right[0] > 0 ? middle_u : -middle_u, -sun.box_z, -middle_v};
+    position[0] += sun.box_width / 8;
+    position[1] += sun.box_depth / 2;
+    status |= gn_point_light(&staged_light, position, sun.box_width / 256, 2 * sun.box_width);
+    if (status != GN_OK)
+        fail("lamp", golden, by, status);
+}
+
 static golden_scene stage(const golden_scene *packed, const method *by)
 {
     golden_scene staged = {packed->name, &staged_scene, &staged_camera, &staged_light, packed->many_triangles};
@@ -560,6 +624,8 @@ static golden_scene stage(const golden_scene *packed, const method *by)
     gn_object *last = copy_scene(packed, by);
     if (by->staging == MOVED)
         move(packed, by, last);
+    else if (by->staging == LAMP)
+        light_lamp(packed, by);
     else
         take_edges_away(last);
     return staged;
@@ -655,6 +721,8 @@ static int has_silhouettes(const method *by)
 
 static int has_stage(const method *by, int stage)
 {
+    if (by->faces)
+        return stage >= MASK_STAGE;
     if (stage == WARP_STAGE)
         return has_view(by);
     if (stage == SILHOUETTES_STAGE)
