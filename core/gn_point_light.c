@@ -277,20 +277,6 @@ static gn_status begin_camera(gn_context *context, const gn_camera *camera)
     return gn_begin_point_camera(context, camera);
 }
 
-uint32_t gn_find_face(const gn_shading *s, const uint32_t place[3], uint32_t magnitude[3])
-{
-    uint32_t m[3], axis = 0;
-    for (int i = 0; i < 3; i++)
-        m[i] = place[i] >> 31 ? 0 - place[i] : place[i];
-    if (m[1] > m[axis])
-        axis = 1;
-    if (m[2] > m[axis])
-        axis = 2;
-    for (uint32_t i = 0, k = axis; i < 3; i++, k = k < 2 ? k + 1 : 0)
-        magnitude[i] = m[k];
-    return m[axis] - s->near_w > s->far_w - s->near_w ? GN_NO_FACE : 2 * axis + (place[axis] >> 31);
-}
-
 /* Texels from the centre of a face to a ratio of its w, 2^30 = 1. */
 GN_INLINE uint32_t across(uint32_t ratio, uint32_t scale, uint32_t negative)
 {
@@ -306,24 +292,25 @@ void gn_find_face_points(const gn_context *context, gn_points *points, uint32_t 
     const uint32_t centre_u = (context->settings.map_width - 1) * half, height = context->settings.map_height;
     gn_runner x = points->row[0], y = points->row[1], z = points->row[2];
     for (int32_t i = 0; i < points->count; i++) {
-        uint32_t w = q[i], place[3] = {gn_step(&x, w), gn_step(&y, w), gn_step(&z, w)}, magnitude[3];
-        uint32_t face = gn_find_face(s, place, magnitude), below = face - point->first;
+        uint32_t w = q[i], along_x = gn_step(&x, w), along_y = gn_step(&y, w);
+        gn_face_place p = gn_find_face(s, along_x, along_y, gn_step(&z, w));
+        uint32_t face = p.face, below = face - point->first;
         q[i] = 0;
         points->u[i] = GN_NOWHERE;
         points->z[i] = 0xffffffffu;
         if (face == GN_NO_FACE)
             continue; /* unlit */
-        uint32_t next = face < 4 ? (face >> 1) + 1 : 0, last = 3 - next - (face >> 1);
-        uint32_t nearness = gn_divide_place(s, &magnitude[1], &magnitude[2], magnitude[0]);
+        uint32_t right = p.magnitude[1], down = p.magnitude[2];
+        uint32_t nearness = gn_divide_place(s, &right, &down, p.magnitude[0]);
         /* the tangent is 1; the direction of u and v says nothing for the distance */
-        q[i] = gn_over_distance(nearness, (1u << 29) + magnitude[1] / 2, (1u << 29) + magnitude[2] / 2, 1u << 19);
+        q[i] = gn_over_distance(nearness, (1u << 29) + right / 2, (1u << 29) + down / 2, 1u << 19);
         points->z[i] = 0;
         if (below >= count)
             continue; /* on a face that is not in memory */
         /* right is the next axis towards minus (of faces towards minus: plus), down the last one towards minus */
-        points->u[i] = centre_u + across(magnitude[1], point->scale[0], (place[next] >> 31) ^ (face & 1) ^ 1);
-        points->v[i] = (height - 1) * half + across(magnitude[2], point->scale[1], place[last] >> 31 ^ 1) +
-                       (below * height << GN_FACE_BITS);
+        points->u[i] = centre_u + across(right, point->scale[0], (p.next >> 31) ^ (face & 1) ^ 1);
+        points->v[i] =
+            (height - 1) * half + across(down, point->scale[1], p.last >> 31 ^ 1) + (below * height << GN_FACE_BITS);
         points->z[i] = gn_spot_depth(&context->light_view, nearness);
     }
 }

@@ -61,9 +61,34 @@ void gn_choose_face(gn_context *context, uint32_t face);
 /* gn_camera_begin, whatever faces are drawn. */
 gn_status gn_begin_point_camera(gn_context *context, const gn_camera *camera);
 
-/* The face of a point at x, y, z from the light, and their magnitudes with the largest first, then those of the axes
- * that follow it; GN_NO_FACE: beyond near or far. */
-uint32_t gn_find_face(const gn_shading *s, const uint32_t place[3], uint32_t magnitude[3]);
+/* A point by its face: the coordinate along the face's axis and those along the two axes that follow, as seen from the
+ * light, and their magnitudes. */
+typedef struct gn_face_place {
+    uint32_t face, axis;
+    uint32_t next, last;
+    uint32_t magnitude[3];
+} gn_face_place;
+
+GN_INLINE uint32_t gn_face_magnitude(uint32_t v)
+{
+    return v >> 31 ? 0 - v : v;
+}
+
+/* The face of a point at x, y, z from the light; GN_NO_FACE: beyond near or far. */
+GN_INLINE gn_face_place gn_find_face(const gn_shading *s, uint32_t x, uint32_t y, uint32_t z)
+{
+    uint32_t mx = gn_face_magnitude(x), my = gn_face_magnitude(y), mz = gn_face_magnitude(z);
+    gn_face_place p = {0, x, y, z, {mx, my, mz}};
+    if (my > mx && my >= mz) {
+        gn_face_place q = {2, y, z, x, {my, mz, mx}};
+        p = q;
+    } else if (mz > mx) {
+        gn_face_place q = {4, z, x, y, {mz, mx, my}};
+        p = q;
+    }
+    p.face = p.magnitude[0] - s->near_w > s->far_w - s->near_w ? GN_NO_FACE : p.face + (p.axis >> 31);
+    return p;
+}
 
 /* gn_find_points of the faces that are in memory; points of other faces that the light reaches lie nowhere, z 0. */
 void gn_find_face_points(const gn_context *context, gn_points *points, uint32_t *q);

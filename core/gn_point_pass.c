@@ -11,17 +11,17 @@
 /* ---- what is in view --------------------------------------------------------------------------------------------- */
 
 /* The faces that light something in a row, a bit each. W is in q. */
-static uint32_t find_faces(const gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y,
+static uint32_t find_faces(const gn_context *context, gn_worker *worker, uint32_t from, int32_t column, int32_t row,
                            int32_t count)
 {
     const gn_shading *s = &context->shading;
     const uint32_t *w = worker->q + from, *triangle = worker->triangle + from;
-    gn_runner axis[3] = {gn_start_row(&s->coordinate[0], x, y), gn_start_row(&s->coordinate[1], x, y),
-                         gn_start_row(&s->coordinate[2], x, y)};
+    gn_runner axis[3] = {gn_start_row(&s->coordinate[0], column, row), gn_start_row(&s->coordinate[1], column, row),
+                         gn_start_row(&s->coordinate[2], column, row)};
     uint32_t found = 0;
     for (int32_t i = 0; i < count; i++) {
-        uint32_t place[3] = {gn_step(&axis[0], w[i]), gn_step(&axis[1], w[i]), gn_step(&axis[2], w[i])}, magnitude[3];
-        uint32_t face = 1u << gn_find_face(s, place, magnitude);
+        uint32_t x = gn_step(&axis[0], w[i]), y = gn_step(&axis[1], w[i]), z = gn_step(&axis[2], w[i]);
+        uint32_t face = 1u << gn_find_face(s, x, y, z).face;
         if (triangle[i] != GN_NO_TRIANGLE && !(found & face) && gn_find_pair(context, worker, triangle[i])->faces_light)
             found |= face;
     }
