@@ -83,12 +83,20 @@ static void walk(const gn_layer_target *t, const gn_rows *rows)
     }
 }
 
+/* A region's rows of texels lie between the least fine row of its first one and the greatest of its last. */
 static void aim(gn_layer_target *t, gn_window *window)
 {
+    const gn_grid *grid = t->grid;
     t->row = window->row0;
     t->end = window->row1;
-    window->row0 = window->column0 = 0;
-    window->row1 = window->column1 = GN_FINE;
+    window->row0 = window->column1 = GN_FINE;
+    window->row1 = window->column0 = 0;
+    for (int32_t column = 0; column < grid->width; column++) {
+        const uint16_t *down = grid->down + column * grid->height;
+        int32_t first = down[t->row], end = down[t->end - 1] + 1;
+        window->row0 = first < window->row0 ? first : window->row0;
+        window->row1 = end > window->row1 ? end : window->row1;
+    }
 }
 
 /* ---- camera pass ------------------------------------------------------------------------------------------------- */
