@@ -1,11 +1,18 @@
 /* One hash for each stage of a frame, equal on every target: 64-bit FNV-1a over a canonical dump, little-endian.
  *
- *     warp     the rectangle of the light's plane that the map covers (gn_rectangle: cosine, sine, low, size), then,
- * row by row, where each texel lies (gn_texel_place: x, y); 32 bits each layers   the first layer's rows from the top,
- * then the second's, each texel in GN_DEPTH_BITS / 8 bytes; a layer that does not exist counts as zeros map      the
- * rows of the resolved map silhouettes  the cells of the silhouette map, or the texels of the crossing map, one byte
- * each mask     the rows of the image, one byte a pixel colour   the rows of the image, three bytes a pixel: r, g, b
- * (GN_RGB888); for GN_RGB565 two
+ *     warp     the rectangle of the light's plane that the map covers (gn_rectangle: cosine, sine, low, size), then, row
+ *              by row, where each texel lies (gn_texel_place: x, y); 32 bits each
+ *
+ *     layers   the first layer's rows from the top, then the second's, each texel in GN_DEPTH_BITS / 8 bytes; a layer
+ *              that does not exist counts as zeros
+ *
+ *     map      the rows of the resolved map
+ *
+ *     silhouettes  the cells of the silhouette map, or the texels of the crossing map, one byte each
+ *
+ *     mask     the rows of the image, one byte a pixel
+ *
+ *     colour   the rows of the image, three bytes a pixel: r, g, b (GN_RGB888); for GN_RGB565 two
  *
  * Rows are whole, whatever the regions were. Freestanding: no libc, for the host and for firmware.
  */
