@@ -1,7 +1,7 @@
 /* One hash for each stage of a frame, equal on every target: 64-bit FNV-1a over a canonical dump, little-endian.
  *
- *     warp     the rectangle of the light's plane that the map covers (gn_rectangle: cosine, sine, low, size), then, row
- *              by row, where each texel lies (gn_texel_place: x, y); 32 bits each
+ *     warp     the rectangle of the light's plane that the map covers (gn_rectangle: cosine, sine, low, size), then,
+ *              row by row, where each texel lies (gn_texel_place: x, y); 32 bits each
  *
  *     layers   the first layer's rows from the top, then the second's, each texel in GN_DEPTH_BITS / 8 bytes; a layer
  *              that does not exist counts as zeros
