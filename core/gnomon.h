@@ -386,7 +386,8 @@ gn_status gn_view_region(gn_context *context, uint32_t region, uint32_t worker);
 gn_status gn_view_end(gn_context *context);
 
 /* The rectangle of the light's plane that the map covers, after a view pass. The plane is the light's box or frustum,
- * places count from its upper left corner in 2^-30 of its larger side, x to the right, y down. */
+ * places count from its upper left corner in 2^-30 of its larger side, x to the right, y down. gn_get_rectangle:
+ * GN_UNSUPPORTED: neither fit nor warp; GN_NOT_READY: no view pass yet. */
 typedef struct gn_rectangle {
     gn_q2_30 cosine, sine; /* of the angle from x to the rectangle's rows */
     int32_t low[2];        /* least x cosine + y sine, and least y cosine - x sine */
