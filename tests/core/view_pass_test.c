@@ -240,30 +240,56 @@ static uint32_t texel_of(const uint16_t *table, int32_t count, int64_t place, in
     return (uint32_t)i;
 }
 
-/* Of each band by columns, or of each column by bands. *near: some sample lies within rounding of a texel's border. */
-static int check_bent_sums(const gn_context *context, const sample samples[PIXELS], int second)
+/* Samples of each band by columns, or of each column by bands. */
+static uint32_t *count_bent(const gn_context *context, const sample samples[PIXELS], int second)
 {
     uint32_t width = context->settings.map_width, height = context->settings.map_height;
-    const uint16_t *got = (const uint16_t *)(const void *)context->fitting->sums;
-    uint32_t *expected = grown(0, width * height * sizeof *expected);
-    memset(expected, 0, width * height * sizeof *expected);
+    uint32_t *count = grown(0, width * height * sizeof *count);
+    memset(count, 0, width * height * sizeof *count);
     for (int i = 0; i < PIXELS; i++) {
         const sample *s = &samples[i];
         if (!s->seen)
             continue;
         uint32_t band = (uint32_t)((s->v >> s->bits) * height / GN_FINE);
         if (!second) {
-            expected[band * width + bin_of(s->x, width)]++;
+            count[band * width + bin_of(s->x, width)]++;
             continue;
         }
         uint32_t column = texel_of(context->fitting->columns + band * width, (int32_t)width, s->u, s->bits);
-        expected[column * height + bin_of(s->y, height)]++;
+        count[column * height + bin_of(s->y, height)]++;
     }
+    return count;
+}
+
+static int check_bent_sums(const gn_context *context, const sample samples[PIXELS], int second)
+{
+    uint32_t texels = (uint32_t)context->settings.map_width * context->settings.map_height;
+    const uint16_t *got = (const uint16_t *)(const void *)context->fitting->sums;
+    uint32_t *expected = count_bent(context, samples, second);
     int wrong = 0;
-    for (uint32_t i = 0; i < width * height; i++)
+    for (uint32_t i = 0; i < texels; i++)
         wrong += got[i] != expected[i];
     free(expected);
     return wrong == 0;
+}
+
+/* What came of them: the lines that these counts bend, with the settings' smoothing. */
+static int check_bent_tables(const gn_context *context, const sample samples[PIXELS], int second)
+{
+    const gn_settings *s = &context->settings;
+    uint32_t lines = second ? s->map_width : s->map_height, bins = second ? s->map_height : s->map_width;
+    uint32_t *expected = count_bent(context, samples, second), *scratch = grown(0, bins * 8);
+    uint16_t *count = grown(0, lines * bins * sizeof *count), *table = grown(0, lines * bins * sizeof *table);
+    for (uint32_t i = 0; i < lines * bins; i++)
+        count[i] = (uint16_t)expected[i];
+    gn_bend_lines(table, bins, count, lines, bins, s->smoothing ? s->smoothing : 1 << 16, scratch);
+    int good =
+        memcmp(table, second ? context->fitting->rows : context->fitting->columns, lines * bins * sizeof *table) == 0;
+    free(expected);
+    free(scratch);
+    free(count);
+    free(table);
+    return good;
 }
 
 /* What the pass made of the sums, by the functions that warp_table_test holds. */
@@ -361,6 +387,8 @@ static void compare_rounds(uint64_t n, sums_count *count)
             good &= check_desired_view(f.context, samples, &grown_by);
         if (!fit_round && s.warp == &gn_rectilinear)
             good &= check_tables(f.context, samples);
+        if (!fit_round && s.warp == &gn_nonorthogonal)
+            good &= check_bent_tables(f.context, samples, second);
         if ((!good || status != GN_OK) && count->failures++ < 5) {
             note_settings(n, &s, &light);
             note("round %u: other sums, or another fit or table, status %d", (unsigned)round, (int)status);
