@@ -132,7 +132,8 @@ static void draw(gn_context *context, uint32_t region, uint32_t worker)
 #endif
 }
 
-const gn_drawing gn_draw_crossings = {gn_check_drawing, gn_lay_out_drawn, gn_lay_out_drawing, gn_begin_drawing, draw, 0};
+const gn_drawing gn_draw_crossings = {
+    gn_check_drawing, gn_lay_out_drawn, gn_lay_out_drawing, gn_begin_drawing, draw, 0};
 
 const uint8_t *gn_crossing_map(const gn_context *context, uint32_t *stride)
 {

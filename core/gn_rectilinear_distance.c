@@ -1,8 +1,8 @@
 /* The rectilinear warp that is driven by distance to the eye (Rosen 2012): a column or a row of texels is as important
  * as its nearest sample is near. Distance is depth along the view, by which pixels shrink; an orthographic camera is
  * equally far from everything. Sums: four bytes a column and a row. */
-#include "gn_warps.h"
 #include "gn_warp_table.h"
+#include "gn_warps.h"
 
 static void clear(const gn_settings *s, void *sums)
 {

@@ -183,8 +183,7 @@ static void draw(gn_context *context, uint32_t region, uint32_t worker)
 #endif
 }
 
-const gn_drawing gn_draw_silhouettes = {gn_check_drawing, gn_lay_out_drawn, lay_out_light, begin, draw,
-                                        GN_CELL_CENTRE};
+const gn_drawing gn_draw_silhouettes = {gn_check_drawing, gn_lay_out_drawn, lay_out_light, begin, draw, GN_CELL_CENTRE};
 
 const uint8_t *gn_silhouette_map(const gn_context *context, uint32_t *stride)
 {

@@ -159,7 +159,8 @@ static uint32_t resample(const gn_context *context, gn_worker *worker, const gn_
 {
     if (points->triangle[i] == GN_NO_TRIANGLE)
         return 0;
-    const gn_receiver_plane *plane = gn_find_plane(context, worker, points->triangle[i], gn_face_of(context, points, i));
+    const gn_receiver_plane *plane =
+        gn_find_plane(context, worker, points->triangle[i], gn_face_of(context, points, i));
     if (!plane->faces_light)
         return lookup->whole;
     gn_wide_plane nearer = {points->z[i], 0, 0};
