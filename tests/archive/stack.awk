@@ -17,7 +17,7 @@
 BEGIN {
     OUTSIDE = 96
     # gn_receiver and gn_reconstruction (core/gn_cascade.h)
-    may_call("^gn_camera_region$", "^gn_cascade_row$")
+    may_call("^gn_(camera_region|point_pass)$", "^gn_cascade_row$|:shade_nearest$")
     may_call("^gn_colour_region_row$", "^gn_colour_(row|fractions)$")
     may_call("^gn_cascade_row$", ":(move|vote|resample)|^gn_(vote_around|settle)$")
     may_call(":resample|^gn_settle$", ":sample|^gn_sample_nearest$")
@@ -28,6 +28,29 @@ BEGIN {
     may_call("^gn_light_begin$", "_map.c:begin$|^gn_begin_drawing$")
     may_call("^gn_light_layers$", "_map.c:draw$")
     may_call("/gn_drawing.c:|^gn_draw_silhouette_edges$", "_map.c:draw_stroke$")
+    # gn_parameterisation, gn_round, gn_fit, gn_warp and gn_fitting (core/gn_parameterisation.h)
+    may_call("^gn_make_plan$", "/gn_view_pass.c:make_plan")
+    may_call("^gn_(make_plan|init)$|/gn_plan.c:lay_out_head", "/gn_view_pass.c:lay_out_head")
+    may_call("/gn_view_pass.c:|^gn_view_(begin|region|end|pass)$",
+             "/gn_(fit|minimal_frustum|rectilinear|rectilinear_distance|nonorthogonal).c:(bounds_bytes|bytes|clear|add|merge|end)")
+    may_call("/gn_view_pass.c:", "^gn_rectilinear_(bytes|sums)$|^gn_nonorthogonal_bytes$")
+    may_call("/gn_view_pass.c:lay_out_head", "^gn_lay_out_(rectilinear|nonorthogonal)$|/gn_warped_vertices.c:lay_out")
+    may_call("^gn_light_begin$", "/gn_view_pass.c:make_view")
+    may_call("/gn_receiver_plane.c:make_plane|^gn_find_plane$", "/gn_fit_depth.c:make_clamped_plane")
+    may_call("^gn_find_points$", "^gn_find_(place_on_plane|face_points)$|/gn_point_pass.c:find_points$")
+    # gn_grid (core/gn_grid.h), and what is done with triangles beyond the planes
+    may_call("/gn_light_pass.c:|^gn_(light_layers|nearest_row)$|/gn_fit_depth.c:insert$",
+             "/gn_(grid|nonorthogonal).c:(walk|aim)$|/gn_warped_vertices.c:(walk_|aim)")
+    may_call("/gn_light_pass.c:insert_clipped", "/gn_fit_depth.c:insert$")
+    may_call("/gn_warped_vertices.c:walk", "/gn_warped_vertices.c:move_")
+    may_call("^gn_cascade_row$", "/gn_(grid|nonorthogonal).c:(place|doubt)$")
+    may_call("/gn_grid.c:sample$", "/gn_(quadrants|quadrants_smooth|crossings|box|jitter|bilinear).c:sample|^gn_sample_nearest$")
+    # gn_unequal_cells (core/gn_unequal_cells.h)
+    may_call("/gn_quadrants(_smooth)?.c:sample", "/gn_unequal_cells.c:find_quadrant$")
+    may_call("/gn_segment.c:|^gn_(centre_before|segment_in_cell)$|_map.c:", "/gn_unequal_cells.c:(centre_before|find_ways)$")
+    # gn_faces (core/gn_point_light.h)
+    may_call("^gn_(make_plan|init)$|/gn_plan.c:lay_out_head", "/gn_point_(light|pass).c:lay_out")
+    may_call("^gn_camera_begin$", "/gn_point_(light|pass).c:(begin|refuse)_camera")
 }
 
 # A pointer in functions whose names match the first pattern may mean any that matches the second.
