@@ -170,6 +170,7 @@ $(BUILD)/$(2)/%.elf: $(BUILD)/objects/$(2)/port/%.o $(call objects,$(2),$(PROGRA
 	@mkdir -p $$(@D)
 	$(quiet)$($(1)_TOOL)gcc $($(1)_FLAGS) $$($(1)_LINK) $$(filter %.o,$$^) $$(filter %.a,$$^) -lgcc -o $$@
 $(BUILD)/objects/$(2)/port/firmware.o $(BUILD)/objects/$(2)/port/bench/bench.o: $(GOLDEN_HEADERS)
+$(BUILD)/$(2)/firmware.elf: $(BUILD)/objects/$(2)/port/methods.o
 $(BUILD)/$(2)/bench/bench.elf: $(BUILD)/objects/$(2)/port/bench/edges.o $(BUILD)/objects/$(2)/port/bench/warps.o
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN) -kernel)
@@ -184,6 +185,7 @@ $(BUILD)/$(2)/%.elf: $(call objects,$(2),port/%.c $(PROGRAM) port/linux/console.
 	$$(call say,link)
 	@mkdir -p $$(@D)
 	$(quiet)$(or $($(1)_CC),$(CC)) $($(1)_FLAGS) $$^ $($(1)_LINK) -o $$@
+$(BUILD)/$(2)/firmware.elf: $(BUILD)/objects/$(2)/port/methods.o
 $(BUILD)/objects/$(2)/port/firmware.o: $(GOLDEN_HEADERS)
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN))

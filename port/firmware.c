@@ -12,6 +12,7 @@
  * method made light and shadow, those that filter, and no other, fractions, those with silhouettes a map that holds
  * some, those with a warp texels that lie unevenly, and those with six maps casters on several of them. */
 #include "gnomon.h"
+#include "methods.h"
 #include "port.h"
 #include "print.h"
 #include "stage_hash.h"
@@ -22,8 +23,6 @@
 #include "pipes.h"
 #include "table.h"
 #include "torus2.h"
-
-enum { WIDTH = 160, HEIGHT = 120, MAP = 128 };
 
 typedef struct golden_scene {
     const char *name;
@@ -40,194 +39,6 @@ static const golden_scene scenes[] = {
     {"pipes", &pipes_scene, &pipes_camera, &pipes_light, 1},
     {"pins", &pins_scene, &pins_camera, &pins_light, 1},
     {"fence", &fence_scene, &fence_camera, &fence_light, 0},
-};
-
-/* A scene as it was packed; or MOVED: seen by an orthographic camera, its last object turned and mirrored by a model
- * matrix, and a spot light's near plane pushed into it; or SOUP: its last object's mesh without edges; or a point
- * light in place of its own, LAMP_BEHIND most of it, or LAMP_WITHIN: near its middle. */
-typedef enum staging { AS_PACKED, MOVED, SOUP, LAMP_BEHIND, LAMP_WITHIN } staging;
-
-typedef struct method {
-    const char *name;
-    gn_surface surface;
-    gn_cull cull;
-    gn_layers layers;
-    gn_format format;
-    gn_bias bias;
-    gn_q16_16 slope;
-    const gn_receiver *receiver;
-    const gn_reconstruction *reconstruction;
-    const gn_fit *fit;
-    const gn_warp *warp;
-    gn_q16_16 smoothing;
-    uint8_t fit_depth;
-    gn_shadow shadow;
-    const gn_faces *faces;
-    staging staging;
-} method;
-
-/* Biases: two texels, parts of the light's depth range; slopes: one and two; twice the usual smoothing. */
-#define TEXELS_2                                                                                                       \
-    {                                                                                                                  \
-        GN_BIAS_TEXELS, 2 << 16                                                                                        \
-    }
-#define RANGE_50TH                                                                                                     \
-    {                                                                                                                  \
-        GN_BIAS_RANGE, 0xffffffffu / 50                                                                                \
-    }
-#define RANGE_2000TH                                                                                                   \
-    {                                                                                                                  \
-        GN_BIAS_RANGE, 0xffffffffu / 2000                                                                              \
-    }
-enum { SLOPE_1 = 1 << 16, SLOPE_2 = 2 << 16, SMOOTHING_2 = 2 << 16 };
-
-/* Every virtual surface, receiver, reconstruction, fit, kind of warp and of faces, over maps that each must be right
- * for, in both staging. */
-static const method methods[] = {
-    {.name = "constant", .cull = GN_CULL_NONE, .layers = GN_LAYERS_FIRST, .format = GN_RGB888, .bias = RANGE_50TH},
-    {.name = "midpoint", .surface = GN_MIDPOINT, .cull = GN_CULL_NONE, .layers = GN_LAYERS_TWO, .format = GN_RGB565},
-    {.name = "dual",
-     .surface = GN_DUAL,
-     .cull = GN_CULL_BACK,
-     .layers = GN_LAYERS_TWO,
-     .format = GN_RGB888,
-     .bias = TEXELS_2},
-    {.name = "second-front",
-     .surface = GN_SECOND,
-     .cull = GN_CULL_FRONT,
-     .layers = GN_LAYERS_FIRST,
-     .format = GN_RGB888},
-    {.name = "second-two", .surface = GN_SECOND, .cull = GN_CULL_NONE, .layers = GN_LAYERS_TWO, .format = GN_RGB565},
-    {.name = "mixed",
-     .surface = GN_MIXED,
-     .cull = GN_CULL_NONE,
-     .layers = GN_LAYERS_TWO,
-     .format = GN_RGB888,
-     .bias = TEXELS_2},
-    {.name = "slope", .surface = GN_SLOPE, .format = GN_RGB888, .bias = RANGE_2000TH, .slope = SLOPE_2},
-    {.name = "virtual", .surface = GN_SECOND, .format = GN_RGB888, .receiver = &gn_virtual},
-    {.name = "always-moved",
-     .surface = GN_MIXED,
-     .format = GN_RGB565,
-     .bias = TEXELS_2,
-     .receiver = &gn_virtual_always,
-     .staging = MOVED},
-    {.name = "plane-bias", .format = GN_RGB888, .bias = RANGE_2000TH, .slope = SLOPE_1, .receiver = &gn_plane_bias},
-    {.name = "bilinear",
-     .surface = GN_DUAL,
-     .format = GN_RGB565,
-     .bias = TEXELS_2,
-     .receiver = &gn_virtual,
-     .reconstruction = &gn_bilinear},
-    {.name = "jitter", .format = GN_RGB888, .bias = RANGE_50TH, .reconstruction = &gn_jitter_4x4},
-    {.name = "jitter-moved",
-     .surface = GN_SECOND,
-     .format = GN_RGB888,
-     .receiver = &gn_virtual,
-     .reconstruction = &gn_jitter_4x4,
-     .staging = MOVED},
-    {.name = "pcf3", .format = GN_RGB565, .bias = RANGE_2000TH, .receiver = &gn_virtual, .reconstruction = &gn_box_3x3},
-    {.name = "pcf5", .surface = GN_SECOND, .format = GN_RGB888, .receiver = &gn_virtual, .reconstruction = &gn_box_5x5},
-    {.name = "pcf7-moved",
-     .format = GN_RGB565,
-     .bias = RANGE_2000TH,
-     .slope = SLOPE_1,
-     .receiver = &gn_plane_bias,
-     .reconstruction = &gn_box_7x7,
-     .staging = MOVED},
-    {.name = "silhouette",
-     .surface = GN_MIXED,
-     .format = GN_RGB888,
-     .bias = TEXELS_2,
-     .receiver = &gn_virtual,
-     .reconstruction = &gn_silhouettes},
-    {.name = "silhouette-moved",
-     .surface = GN_SECOND,
-     .format = GN_RGB565,
-     .reconstruction = &gn_silhouettes,
-     .staging = MOVED},
-    {.name = "silhouette-soup",
-     .surface = GN_DUAL,
-     .format = GN_RGB888,
-     .bias = TEXELS_2,
-     .receiver = &gn_virtual_always,
-     .reconstruction = &gn_silhouettes,
-     .staging = SOUP},
-    {.name = "smooth",
-     .surface = GN_SECOND,
-     .format = GN_RGB565,
-     .receiver = &gn_virtual,
-     .reconstruction = &gn_silhouettes_smooth},
-    {.name = "crossing-moved",
-     .surface = GN_MIXED,
-     .format = GN_RGB888,
-     .bias = TEXELS_2,
-     .receiver = &gn_virtual,
-     .reconstruction = &gn_crossings,
-     .staging = MOVED},
-    {.name = "dv", .surface = GN_SECOND, .format = GN_RGB888, .receiver = &gn_virtual, .fit = &gn_desired_view},
-    {.name = "msf-moved",
-     .surface = GN_MIXED,
-     .format = GN_RGB565,
-     .bias = TEXELS_2,
-     .receiver = &gn_virtual,
-     .fit = &gn_minimal_frustum,
-     .fit_depth = 1,
-     .staging = MOVED},
-    {.name = "dv-rectilinear",
-     .surface = GN_DUAL,
-     .format = GN_RGB565,
-     .bias = TEXELS_2,
-     .receiver = &gn_virtual,
-     .reconstruction = &gn_box_3x3,
-     .fit = &gn_desired_view,
-     .warp = &gn_rectilinear,
-     .smoothing = SMOOTHING_2},
-    {.name = "msf-distance",
-     .format = GN_RGB888,
-     .bias = RANGE_2000TH,
-     .slope = SLOPE_1,
-     .receiver = &gn_plane_bias,
-     .fit = &gn_minimal_frustum,
-     .warp = &gn_rectilinear_distance},
-    {.name = "dv-nonorthogonal",
-     .surface = GN_SECOND,
-     .format = GN_RGB888,
-     .receiver = &gn_virtual,
-     .fit = &gn_desired_view,
-     .warp = &gn_nonorthogonal},
-    {.name = "warped-silhouette",
-     .surface = GN_MIXED,
-     .format = GN_RGB888,
-     .bias = TEXELS_2,
-     .receiver = &gn_virtual,
-     .reconstruction = &gn_silhouettes,
-     .fit = &gn_minimal_frustum,
-     .warp = &gn_rectilinear},
-    {.name = "vertices", .format = GN_RGB565, .bias = RANGE_50TH, .warp = &gn_nonorthogonal_vertices},
-    {.name = "silhouette-lamp",
-     .surface = GN_MIXED,
-     .format = GN_RGB888,
-     .bias = TEXELS_2,
-     .receiver = &gn_virtual,
-     .reconstruction = &gn_silhouettes,
-     .faces = &gn_six_faces,
-     .staging = LAMP_BEHIND},
-    {.name = "dual-lamp",
-     .surface = GN_DUAL,
-     .format = GN_RGB565,
-     .bias = TEXELS_2,
-     .faces = &gn_six_faces,
-     .staging = LAMP_WITHIN},
-    {.name = "pcf3-lamp",
-     .surface = GN_SECOND,
-     .format = GN_RGB565,
-     .receiver = &gn_virtual,
-     .reconstruction = &gn_box_3x3,
-     .faces = &gn_one_face,
-     .staging = LAMP_BEHIND},
-    {.name = "volumes", .format = GN_RGB888, .shadow = GN_SHADOW_VOLUMES},
-    {.name = "volumes-moved", .format = GN_RGB565, .shadow = GN_SHADOW_VOLUMES, .staging = MOVED},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
@@ -444,32 +255,6 @@ static gn_status light_regions(gn_context *context, uint32_t regions, uint32_t *
         keep_layer(map, context, 0, region);
     }
     return status;
-}
-
-static gn_settings settings_of(const method *by, int small_regions)
-{
-    gn_settings settings = gn_default_settings(WIDTH, HEIGHT, MAP);
-    settings.shadow = (uint8_t)by->shadow;
-    settings.surface = (uint8_t)by->surface;
-    settings.cull = (uint8_t)by->cull;
-    settings.layers = (uint8_t)by->layers;
-    settings.format = (uint8_t)by->format;
-    settings.bias = by->bias;
-    settings.slope = by->slope;
-    settings.receiver = by->receiver;
-    settings.reconstruction = by->reconstruction;
-    settings.fit = by->fit;
-    settings.warp = by->warp;
-    settings.smoothing = by->smoothing;
-    settings.fit_depth = by->fit_depth;
-    settings.faces = by->faces;
-    settings.mask = 1;
-    if (small_regions) {
-        settings.map_rows = 24;
-        settings.region_width = 48;
-        settings.region_height = 16;
-    }
-    return settings;
 }
 
 static void clear_planes(void)
@@ -824,7 +609,7 @@ int main(void)
     size_t most_bytes = 0;
     for (size_t s = 0; s < COUNT(scenes); s++) {
         write_hash_line(scenes[s].name, "set-up", "axes", hash_axes(&scenes[s]));
-        for (size_t m = 0; m < COUNT(methods); m++) {
+        for (size_t m = 0; m < method_count; m++) {
             if (is_left_out(&scenes[s], &methods[m]))
                 continue;
             size_t bytes = render_method(&scenes[s], &methods[m]);

@@ -4,6 +4,7 @@
  * plus half a texel of its slope. Then every virtual surface and every unit of bias, worked out by hand. Cases: 8000
  * scenes, or GNOMON_CASES. */
 #include "gn_clip.h"
+#include "orders.h"
 #include "scenes.h"
 
 #include <pthread.h>
@@ -11,7 +12,6 @@
 __extension__ typedef __int128 exact;
 __extension__ typedef unsigned __int128 exact_u;
 
-enum { MOST_OBJECTS = 4 };
 #define EMPTY ((gn_depth)0xffffffffu)
 
 /* ---- brute force ----------------------------------------------------------------------------------------------- */
@@ -218,13 +218,6 @@ static gn_depth surface_of(const gn_context *context, texel t)
 
 /* ---- random scenes --------------------------------------------------------------------------------------------- */
 
-typedef struct random_scene {
-    shape shapes[MOST_OBJECTS];
-    gn_model models[MOST_OBJECTS];
-    gn_object objects[MOST_OBJECTS];
-    gn_scene scene;
-} random_scene;
-
 /* Depths come from a few levels and corners from half texels, so that equal depths and centres on edges are common. */
 static void make_scene(random_scene *r, int32_t width, int32_t height)
 {
@@ -421,67 +414,6 @@ static void clipped_triangles_count_once(uint64_t cases)
 }
 
 /* ---- order, regions, workers ----------------------------------------------------------------------------------- */
-
-typedef struct job {
-    gn_context *context;
-    uint32_t worker, workers;
-    gn_status status;
-} job;
-
-static void *run_regions(void *argument)
-{
-    job *j = argument;
-    for (uint32_t region = j->worker; region < j->context->plan.light_regions; region += j->workers) {
-        gn_status status = gn_light_layers(j->context, region, j->worker);
-        if (status == GN_OK)
-            status = gn_light_resolve(j->context, region, j->worker);
-        if (status != GN_OK)
-            j->status = status;
-    }
-    return 0;
-}
-
-static gn_status light_pass_on_threads(gn_context *context, const gn_light *light, uint32_t workers)
-{
-    pthread_t thread[8];
-    job jobs[8];
-    gn_status status = gn_light_begin(context, light);
-    if (status != GN_OK)
-        return status;
-    for (uint32_t i = 0; i < workers; i++) {
-        job j = {context, i, workers, GN_OK};
-        jobs[i] = j;
-        if (pthread_create(&thread[i], 0, run_regions, &jobs[i]))
-            abort();
-    }
-    for (uint32_t i = 0; i < workers; i++) {
-        pthread_join(thread[i], 0);
-        status = jobs[i].status != GN_OK ? jobs[i].status : status;
-    }
-    return status;
-}
-
-/* Permute triangles, rotate their corners, permute objects. */
-static void shuffle(random_scene *r)
-{
-    for (uint32_t o = 0; o < r->scene.object_count; o++) {
-        shape *s = &r->shapes[o];
-        for (uint32_t i = s->mesh.triangle_count; i-- > 1;) {
-            uint32_t j = (uint32_t)between(0, i);
-            for (int k = 0; k < 3; k++) {
-                uint32_t index = s->indices[3 * i + (uint32_t)k];
-                s->indices[3 * i + (uint32_t)k] = s->indices[3 * j + (uint32_t)k];
-                s->indices[3 * j + (uint32_t)k] = index;
-            }
-        }
-    }
-    for (uint32_t o = r->scene.object_count; o-- > 1;) {
-        uint32_t j = (uint32_t)between(0, o);
-        gn_object object = r->objects[o];
-        r->objects[o] = r->objects[j];
-        r->objects[j] = object;
-    }
-}
 
 static uint64_t hash_map(const gn_context *context)
 {

@@ -4,6 +4,7 @@
  * map itself where triangles are clipped, and against what follows: a fan covers each texel once, lone planes and
  * convex solids do not shadow themselves. Tables: of view passes, and any that increase. Cases: 3000 scenes, or
  * GNOMON_CASES. */
+#include "orders.h"
 #include "warps.h"
 
 #include <pthread.h>
@@ -12,7 +13,7 @@ __extension__ typedef __int128 exact;
 __extension__ typedef unsigned __int128 exact_u;
 
 #define EMPTY ((gn_depth)0xffffffffu)
-enum { MOST_OBJECTS = 4, MOST_SIDE = 40 };
+enum { MOST_SIDE = 40 };
 
 /* ---- brute force (docs/number-formats.md) ----------------------------------------------------------------------- */
 
@@ -231,13 +232,6 @@ static gn_depth surface_of(const gn_context *context, texel t)
 }
 
 /* ---- random scenes ---------------------------------------------------------------------------------------------- */
-
-typedef struct random_scene {
-    shape shapes[MOST_OBJECTS];
-    gn_model models[MOST_OBJECTS];
-    gn_object objects[MOST_OBJECTS];
-    gn_scene scene;
-} random_scene;
 
 /* Around low + [0, size]^3; steps of snap make equal depths and centres on edges common. Corners within the cube, or
  * beyond it by as much again. */
@@ -581,67 +575,6 @@ static void warped_maps_are_parts_of_the_uniform_map(uint64_t cases)
 }
 
 /* ---- order, regions, workers ------------------------------------------------------------------------------------ */
-
-typedef struct job {
-    gn_context *context;
-    uint32_t worker, workers;
-    gn_status status;
-} job;
-
-static void *run_regions(void *argument)
-{
-    job *j = argument;
-    for (uint32_t region = j->worker; region < j->context->plan.light_regions; region += j->workers) {
-        gn_status status = gn_light_layers(j->context, region, j->worker);
-        if (status == GN_OK)
-            status = gn_light_resolve(j->context, region, j->worker);
-        if (status != GN_OK)
-            j->status = status;
-    }
-    return 0;
-}
-
-static gn_status light_pass_on_threads(gn_context *context, const gn_light *light, uint32_t workers)
-{
-    pthread_t thread[8];
-    job jobs[8];
-    gn_status status = gn_light_begin(context, light);
-    if (status != GN_OK)
-        return status;
-    for (uint32_t i = 0; i < workers; i++) {
-        job j = {context, i, workers, GN_OK};
-        jobs[i] = j;
-        if (pthread_create(&thread[i], 0, run_regions, &jobs[i]))
-            abort();
-    }
-    for (uint32_t i = 0; i < workers; i++) {
-        pthread_join(thread[i], 0);
-        status = jobs[i].status != GN_OK ? jobs[i].status : status;
-    }
-    return status;
-}
-
-/* Permute triangles and objects, turn triangles' corners. */
-static void shuffle(random_scene *r)
-{
-    for (uint32_t o = 0; o < r->scene.object_count; o++) {
-        shape *s = &r->shapes[o];
-        for (uint32_t i = s->mesh.triangle_count; i-- > 1;) {
-            uint32_t j = (uint32_t)between(0, i);
-            for (uint32_t k = 0; k < 3; k++) {
-                uint32_t index = s->indices[3 * i + k];
-                s->indices[3 * i + k] = s->indices[3 * j + k];
-                s->indices[3 * j + k] = index;
-            }
-        }
-    }
-    for (uint32_t o = r->scene.object_count; o-- > 1;) {
-        uint32_t j = (uint32_t)between(0, o);
-        gn_object object = r->objects[o];
-        r->objects[o] = r->objects[j];
-        r->objects[j] = object;
-    }
-}
 
 static uint64_t hash_map(const gn_context *context)
 {
