@@ -48,17 +48,16 @@ host_FLAGS := -O3 $(HOST_ARCH) -DGN_STATISTICS=1 -DGN_COLOUR_CACHE=4096
 checked_FLAGS := -O2 -g -DGN_CHECKED=1 -DGN_STATISTICS=1
 sanitized_FLAGS := -O1 -g -DGN_STATISTICS=1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 
+# The simulator loads it from its own folder when a picture asks for it (host/oiio.h).
 ifeq ($(OIIO),yes)
-# The simulator alone: with the sanitizers the library's own leaks would show.
-host_FLAGS += -DGNOMON_OIIO=1
-host_OBJECTS := host/oiio.o
-host_LIBRARIES := $(shell pkg-config --libs OpenImageIO) -lstdc++
-OIIO_FLAGS := -std=c++17 -O2 -Wall -Wextra $(shell pkg-config --cflags OpenImageIO)
+OIIO_BRIDGE := $(BUILD)/gnomon-oiio.so
+OIIO_FLAGS = -std=c++17 -O2 -Wall -Wextra $(shell pkg-config --cflags OpenImageIO)
+OIIO_LIBRARIES = $(shell pkg-config --libs OpenImageIO)
 endif
 
 # ---- objects -------------------------------------------------------------------------------------------------------
 
-# Everything is compiled anew when a flag changes, for instance because OpenImageIO was installed.
+# Everything is compiled anew when a flag changes.
 ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(SETUP_SOURCES) $(SMALL) $(FAST)
 $(BUILD)/flags: always
 	@mkdir -p $(@D)
@@ -86,28 +85,28 @@ HOST_BUILDS := library host checked sanitized
 $(foreach b,$(HOST_BUILDS),$(foreach d,$(DEPTHS),\
 	$(eval $(call compile,$(b)-$(d),$(CC),$($(b)_FLAGS) -DGN_DEPTH_BITS=$(d)))))
 
-$(BUILD)/objects/host-16/host/oiio.o $(BUILD)/objects/host-32/host/oiio.o: host/oiio.cpp $(BUILD)/flags
+$(BUILD)/gnomon-oiio.so: host/oiio.cpp host/oiio.h host/image.h $(BUILD)/flags
 	$(call say,oiio)
 	@mkdir -p $(@D)
-	$(quiet)$(CXX) $(OIIO_FLAGS) $(WERROR) -MMD -MP -c $< -o $@
+	$(quiet)$(CXX) $(OIIO_FLAGS) $(WERROR) -fPIC -shared $< $(OIIO_LIBRARIES) -o $@
 
 -include $(shell find $(BUILD)/objects -name '*.d' 2>/dev/null)
 
 # ---- the library and the simulator ---------------------------------------------------------------------------------
 
-all: $(BUILD)/libgnomon.a $(BUILD)/libgnomon32.a $(BUILD)/gnomon $(BUILD)/gnomon32 ## build the library and the simulator for 16 and 32 bits of depth (the default)
+all: $(BUILD)/libgnomon.a $(BUILD)/libgnomon32.a $(BUILD)/gnomon $(BUILD)/gnomon32 $(OIIO_BRIDGE) ## build the library and the simulator for 16 and 32 bits of depth (the default)
 
 $(BUILD)/libgnomon.a: $(call objects,library-16,$(CORE))
 	$(archive)
 $(BUILD)/libgnomon32.a: $(call objects,library-32,$(CORE))
 	$(archive)
 
-# $(call simulator,PROGRAM,BUILD-DEPTH,BUILD)
+# $(call simulator,PROGRAM,BUILD-DEPTH,BUILD): its run path, where it looks for the bridge, is its own folder.
 define simulator
-$(1): $(call objects,$(2),$(HOST) $(CORE)) $(addprefix $(BUILD)/objects/$(2)/,$($(3)_OBJECTS))
+$(1): $(call objects,$(2),$(HOST) $(CORE))
 	$$(call say,link)
 	@mkdir -p $$(@D)
-	$(quiet)$(CC) $($(3)_FLAGS) -pthread $$^ $($(3)_LIBRARIES) -lm -o $$@
+	$(quiet)$(CC) $($(3)_FLAGS) -pthread $$^ -lm -ldl '-Wl,-rpath,$$$$ORIGIN' -o $$@
 endef
 $(eval $(call simulator,$(BUILD)/gnomon,host-16,host))
 $(eval $(call simulator,$(BUILD)/gnomon32,host-32,host))
@@ -119,7 +118,7 @@ demo: ## install OpenImageIO if it is missing, render the built-in scenes, name 
 	$(quiet)$(MAKE) --no-print-directory -j$$(nproc) all
 	$(quiet)$(MAKE) --no-print-directory demo-pictures
 
-demo-pictures: $(BUILD)/gnomon
+demo-pictures: $(BUILD)/gnomon $(OIIO_BRIDGE)
 	@mkdir -p $(BUILD)/demo
 	$(quiet)$< procedural all -o $(BUILD)/demo
 	$(quiet)for scene in $(BUILD)/demo/*.scene; do $< render $$scene -o $${scene%.scene}.png || exit 1; done
@@ -272,15 +271,14 @@ $(BUILD)/$(1)/tests/core/%: $(BUILD)/objects/$(1)/tests/core/%.o $(call objects,
 	@mkdir -p $$(@D)
 	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ -lm -o $$@
 $(BUILD)/$(1)/tests/host/%: $(BUILD)/objects/$(1)/tests/host/%.o \
-		$(call objects,$(1),$(filter-out host/main.c,$(HOST)) $(CORE)) $(addprefix $(BUILD)/objects/$(1)/,$($(2)_OBJECTS))
+		$(call objects,$(1),$(filter-out host/main.c,$(HOST)) $(CORE))
 	$$(call say,link)
 	@mkdir -p $$(@D)
-	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ $($(2)_LIBRARIES) -lm -o $$@
-$(BUILD)/$(1)/tests/hard/hard: $(call objects,$(1),$(HARD) $(filter-out host/main.c,$(HOST)) $(CORE)) \
-		$(addprefix $(BUILD)/objects/$(1)/,$($(2)_OBJECTS))
+	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ -lm -ldl -o $$@
+$(BUILD)/$(1)/tests/hard/hard: $(call objects,$(1),$(HARD) $(filter-out host/main.c,$(HOST)) $(CORE))
 	$$(call say,link)
 	@mkdir -p $$(@D)
-	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ $($(2)_LIBRARIES) -lm -o $$@
+	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ -lm -ldl -o $$@
 endef
 $(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),$(eval $(call test_rules,$(b)-$(d),$(b)))))
 

@@ -2,9 +2,7 @@
 
 #include "file.h"
 #include "memory.h"
-#ifdef GNOMON_OIIO
 #include "oiio.h"
-#endif
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +10,8 @@
 enum { LARGEST_SIZE = 4096 };
 
 #define NEEDS_OIIO                                                                                                     \
-    "this simulator was built without OpenImageIO; expected .ppm, .pgm or .pfm, or install libopenimageio-dev and "    \
-    "rebuild"
+    "there is no " OIIO_FILE " with OpenImageIO beside this simulator; expected .ppm, .pgm or .pfm, or install "       \
+    "libopenimageio-dev and rebuild"
 
 image image_make(uint32_t width, uint32_t height, uint32_t channels, image_sample sample)
 {
@@ -42,14 +40,13 @@ int image_can_write(const char *path, uint32_t channels, image_sample sample, pr
         return problem_in(why, path, "holds floats only; expected %s", channels == 1 ? ".pgm" : ".ppm");
     if (pgm || ppm || file_has_extension(path, ".pfm"))
         return file_can_write(path, why);
-#ifdef GNOMON_OIIO
-    if (!oiio_can_write(path))
+    const oiio_door *oiio = oiio_open();
+    if (!oiio)
+        return problem_in(why, path, NEEDS_OIIO);
+    if (!oiio->can_write(path))
         return problem_in(why, path,
                           "is no image format that can be written; expected .ppm, .pgm, .pfm, .png, .exr, .tif, ...");
     return file_can_write(path, why);
-#else
-    return problem_in(why, path, NEEDS_OIIO);
-#endif
 }
 
 /* Netpbm wants the most significant byte first. */
@@ -101,19 +98,15 @@ int image_write(const image *im, const char *path, problem *why)
         return -1;
     if (file_has_extension(path, ".pgm") || file_has_extension(path, ".ppm") || file_has_extension(path, ".pfm"))
         return write_native(im, path, why);
-#ifdef GNOMON_OIIO
     file_output output;
     char message[400];
     if (file_output_name(&output, path, why))
         return -1;
-    if (oiio_write(im, output.temporary, message, sizeof message)) {
+    if (oiio_open()->write(im, output.temporary, message, sizeof message)) {
         file_output_abandon(&output);
         return problem_in(why, path, "cannot be written: %s; expected a format that holds it", message);
     }
     return file_output_finish(&output, why);
-#else
-    return -1;
-#endif
 }
 
 /* ---- reading --------------------------------------------------------------------------------------------------- */
@@ -204,9 +197,11 @@ int image_parse_netpbm(image *im, const char *file, const uint8_t *bytes, size_t
 
 static int read_with_library(image *im, const char *path, problem *why)
 {
-#ifdef GNOMON_OIIO
+    const oiio_door *oiio = oiio_open();
     char message[400];
-    if (oiio_read_size(im, path, message, sizeof message))
+    if (!oiio)
+        return problem_in(why, path, NEEDS_OIIO);
+    if (oiio->read_size(im, path, message, sizeof message))
         return problem_in(why, path, "cannot be read: %s; expected an image", message);
     if (im->width < 1 || im->width > LARGEST_SIZE || im->height < 1 || im->height > LARGEST_SIZE)
         return problem_in(why, path, "is %u x %u pixels; expected 1 to %d each way", im->width, im->height,
@@ -214,15 +209,11 @@ static int read_with_library(image *im, const char *path, problem *why)
     if (im->channels != 1 && im->channels != 3)
         return problem_in(why, path, "has %u channels; expected 1 or 3", im->channels);
     im->samples = memory_take(image_sample_count(im), im->sample);
-    if (oiio_read_samples(im, path, message, sizeof message)) {
+    if (oiio->read_samples(im, path, message, sizeof message)) {
         image_free(im);
         return problem_in(why, path, "cannot be read: %s; expected an image", message);
     }
     return 0;
-#else
-    (void)im;
-    return problem_in(why, path, NEEDS_OIIO);
-#endif
 }
 
 int image_read(image *im, const char *path, problem *why)

@@ -6,7 +6,9 @@
 
 static OIIO::TypeDesc type_of(image_sample sample)
 {
-    return sample == IMAGE_U8 ? OIIO::TypeDesc::UINT8 : sample == IMAGE_U16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+    return sample == IMAGE_U8    ? OIIO::TypeDesc::UINT8
+           : sample == IMAGE_U16 ? OIIO::TypeDesc::UINT16
+                                 : OIIO::TypeDesc::FLOAT;
 }
 
 static int fail(char *message, size_t size, const std::string &text)
@@ -15,7 +17,7 @@ static int fail(char *message, size_t size, const std::string &text)
     return -1;
 }
 
-extern "C" int oiio_can_write(const char *path)
+static int can_write(const char *path)
 {
     bool can = OIIO::ImageOutput::create(path) != nullptr;
     if (!can)
@@ -23,7 +25,7 @@ extern "C" int oiio_can_write(const char *path)
     return can;
 }
 
-extern "C" int oiio_write(const image *im, const char *path, char *message, size_t message_size)
+static int write_samples(const image *im, const char *path, char *message, size_t message_size)
 {
     auto output = OIIO::ImageOutput::create(path);
     if (!output)
@@ -34,7 +36,7 @@ extern "C" int oiio_write(const image *im, const char *path, char *message, size
     return 0;
 }
 
-extern "C" int oiio_read_size(image *im, const char *path, char *message, size_t message_size)
+static int read_size(image *im, const char *path, char *message, size_t message_size)
 {
     auto input = OIIO::ImageInput::open(path);
     if (!input)
@@ -47,7 +49,7 @@ extern "C" int oiio_read_size(image *im, const char *path, char *message, size_t
     return 0;
 }
 
-extern "C" int oiio_read_samples(image *im, const char *path, char *message, size_t message_size)
+static int read_samples(image *im, const char *path, char *message, size_t message_size)
 {
     auto input = OIIO::ImageInput::open(path);
     if (!input)
@@ -56,3 +58,5 @@ extern "C" int oiio_read_samples(image *im, const char *path, char *message, siz
         return fail(message, message_size, input->geterror());
     return 0;
 }
+
+extern "C" const oiio_door gnomon_oiio = {can_write, write_samples, read_size, read_samples};
