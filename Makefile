@@ -1,11 +1,14 @@
 # gnomon. Plain `make` needs a C compiler and make alone; `make help` lists the targets.
 #
 # What may be set: BUILD (folder of everything made), CC, CXX, HOST_ARCH (code of the simulator; empty: any machine),
-# OIIO (yes: link OpenImageIO; default: where pkg-config finds it), V=1 (show commands).
+# OIIO (yes: link OpenImageIO; default: where pkg-config finds it), LANES (yes: several cores in the simulator; default:
+# where there is objcopy), LANE_CLANG (clang, for those that count operations; empty: without), V=1 (show commands).
 
 BUILD ?= build
 HOST_ARCH ?= -march=native
 OIIO ?= $(shell pkg-config --exists OpenImageIO 2>/dev/null && command -v $(CXX) >/dev/null && echo yes)
+LANES ?= $(shell command -v objcopy >/dev/null && echo yes)
+LANE_CLANG ?= $(shell command -v clang)
 WERROR ?=
 V ?= 0
 
@@ -58,7 +61,7 @@ endif
 # ---- objects -------------------------------------------------------------------------------------------------------
 
 # Everything is compiled anew when a flag changes.
-ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(SETUP_SOURCES) $(SMALL) $(FAST)
+ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(SETUP_SOURCES) $(SMALL) $(FAST) $(LANES) $(LANE_CLANG)
 $(BUILD)/flags: always
 	@mkdir -p $(@D)
 	@echo '$(ALL_FLAGS)' | cmp -s - $@ || echo '$(ALL_FLAGS)' >$@
@@ -101,9 +104,58 @@ $(BUILD)/libgnomon.a: $(call objects,library-16,$(CORE))
 $(BUILD)/libgnomon32.a: $(call objects,library-32,$(CORE))
 	$(archive)
 
+# Lanes (host/lane.h): a core and what depends on it of the simulator in one object, which shows nothing but the lane.
+LANE_HOST := $(patsubst %,host/%.c,choices lane method render_options settings_report)
+
+# $(call show_lane_alone,SYMBOL)
+show_lane_alone = { $(CC) -nostdlib -r $$^ -o $$@.all && \
+	objcopy --redefine-sym lane_here=$(1) --keep-global-symbol=$(1) $$@.all $$@ && rm $$@.all; }
+
+# $(call lane,FILE,SYMBOL,OBJECTS)
+define lane
+$(BUILD)/lanes/$(1).o: $(3)
+	$$(call say,lane)
+	@mkdir -p $$(@D)
+	$(quiet)$(call show_lane_alone,$(2))
+endef
+$(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),\
+	$(eval $(call lane,$(b)-$(d),lane_$(d),$(call objects,$(b)-$(d),$(LANE_HOST) $(CORE))))))
+# Plans as a firmware makes them: the plain library.
+$(foreach d,$(DEPTHS),$(eval $(call lane,firmware-$(d),lane_$(d)_firmware,\
+	$(call objects,host-$(d),$(LANE_HOST)) $(call objects,library-$(d),$(CORE)))))
+
+# Cores that count operations: plain code of 32 bits, each basic block of which calls lane_count. Where that cannot be
+# made, the lane is an empty object, and the build says why.
+LANE_COUNTED := -std=c99 -ffreestanding -w -fPIE -O1 -fno-unroll-loops -fno-vectorize -fno-slp-vectorize \
+	-DGN_WIDE_DIVIDE=0 -include host/lane_counter.h -S -emit-llvm
+define counted_core
+$(BUILD)/objects/counted-$(1)/core/%.o: core/%.c host/lane_counter.h host/count_operations.awk $(BUILD)/flags
+	$$(call say,counted-$(1))
+	@mkdir -p $$(@D)
+	$(quiet){ $(LANE_CLANG) $(LANE_COUNTED) -DGN_DEPTH_BITS=$(1) -MMD -MP -MT $$@ -MF $$(@:.o=.d) $$< -o $$(@:.o=.ll) && \
+		awk -f host/count_operations.awk $$(@:.o=.ll) >$$(@:.o=.counted.ll) && \
+		$(LANE_CLANG) -w -fPIE -O1 -c $$(@:.o=.counted.ll) -o $$@; } 2>$$(@:.o=.problem) && rm $$(@:.o=.problem) || : >$$@
+endef
+define counted_lane
+$(BUILD)/lanes/counted-$(1).o: $(call objects,host-$(1),$(filter-out host/lane.c,$(LANE_HOST))) \
+		$(call objects,counted-$(1),host/lane.c $(CORE))
+	$$(call say,lane)
+	@mkdir -p $$(@D)
+	$(quiet)cat $(patsubst %.o,%.problem,$(call objects,counted-$(1),$(CORE))) >$$@.problem 2>/dev/null; \
+	{ ! [ -s $$@.problem ] && $(call show_lane_alone,lane_$(1)_counted) 2>$$@.problem; } || \
+		{ echo "  no lane that counts operations: $$$$(head -n 1 $$@.problem)"; $(CC) -x c -c /dev/null -o $$@; }
+endef
+$(foreach d,$(if $(LANE_CLANG),$(DEPTHS)),\
+	$(eval $(call compile,counted-$(d),$(CC),$(host_FLAGS) -DGN_DEPTH_BITS=$(d) -DLANE_COUNTS=1)) \
+	$(eval $(call counted_core,$(d))) $(eval $(call counted_lane,$(d))))
+
+# $(call lanes,BUILD-DEPTH): those beside the program's own.
+lanes = $(if $(filter yes,$(LANES)),$(patsubst %,$(BUILD)/lanes/%.o,\
+	$(if $(filter %-16,$(1)),$(1:16=32),$(1:32=16)) $(DEPTHS:%=firmware-%) $(if $(LANE_CLANG),$(DEPTHS:%=counted-%))))
+
 # $(call simulator,PROGRAM,BUILD-DEPTH,BUILD): its run path, where it looks for the bridge, is its own folder.
 define simulator
-$(1): $(call objects,$(2),$(HOST) $(CORE))
+$(1): $(call objects,$(2),$(HOST) $(CORE)) $(call lanes,$(2))
 	$$(call say,link)
 	@mkdir -p $$(@D)
 	$(quiet)$(CC) $($(3)_FLAGS) -pthread $$^ -lm -ldl '-Wl,-rpath,$$$$ORIGIN' -o $$@
@@ -281,6 +333,9 @@ $(BUILD)/$(1)/tests/hard/hard: $(call objects,$(1),$(HARD) $(filter-out host/mai
 	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ -lm -ldl -o $$@
 endef
 $(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),$(eval $(call test_rules,$(b)-$(d),$(b)))))
+# Other tests do without lanes: host/lanes.c then finds none.
+$(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),\
+	$(eval $(BUILD)/$(b)-$(d)/tests/host/lane_test: $(call lanes,$(b)-$(d)))))
 
 TEST_INPUTS := all $(TEST_PROGRAMS) $(BUILD)/sanitized-16/gnomon $(TARGET_DEPTHS:%=$(BUILD)/hashes/%.txt) \
 	$(MINIMAL_DEPTHS:%=$(BUILD)/%/minimal_main.txt) $(BENCH_COUNTS) $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) \

@@ -16,6 +16,7 @@
 #endif
 #if LANE_COUNTS
 #include "lane_counter.h"
+__thread uint64_t lane_counters[LANE_COUNTERS];
 #endif
 
 /* ---- settings -------------------------------------------------------------------------------------------------- */

@@ -84,7 +84,7 @@ tests_in_use() {
 
 # The cache of colours as small as a firmware's, so that triangles push each other out.
 in_copy() {
-    make -s --no-print-directory OIIO=no CC="$compiler" CFLAGS="-O1 -UGN_COLOUR_CACHE" "$@" </dev/null
+    make -s --no-print-directory OIIO=no LANES=no CC="$compiler" CFLAGS="-O1 -UGN_COLOUR_CACHE" "$@" </dev/null
 }
 
 # What has to be compiled for a test.

@@ -1,26 +1,36 @@
-/* Lanes against the program's own frames: the same bits whichever core renders, with any regions and workers, and
- * figures that do not depend on how a frame was cut. */
+/* Lanes: every core in this program renders what the golden hashes say, the program's own frames are the same with any
+ * regions and workers, and a lane that counts its operations renders as the one that does not, and counts what can be
+ * worked out. Which lanes there are depends on the build: what is missing is said. */
 #include "frame.h"
 #include "lane.h"
 #include "procedural.h"
 #include "render_options.h"
 #include "sandbox.h"
 
-#if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
-static const char size[] = "80x60";
-#else
-static const char size[] = "160x120";
-#endif
+#include <inttypes.h>
+#include <pthread.h>
 
-/* The options of a chain beside sizes. */
+/* ---- scenes and chains ------------------------------------------------------------------------------------------- */
+
+/* Rendered as the golden firmware does (port/methods.h); golden: its name there, or 0. */
 typedef struct chain {
-    const char *method, *reconstruct, *parameterise;
+    const char *golden, *method, *receiver, *reconstruct, *parameterise, *smoothing, *bias, *layers;
 } chain;
 
 static const chain chains[] = {
-    {"constant", 0, 0},        {"mixed", "pcf3", 0}, {"silhouette", 0, "msf+rectilinear"},
-    {"second-depth", 0, "dv"}, {"slope", 0, 0},      {"dual", "crossing", 0},
-    {"volumes", 0, 0},
+    {.golden = "midpoint", .method = "midpoint"},
+    {.golden = "dual", .method = "dual", .bias = "2t"},
+    {.golden = "second-two", .method = "second-depth", .receiver = "point", .layers = "two"},
+    {.golden = "mixed", .method = "mixed", .receiver = "point"},
+    {.golden = "virtual", .method = "second-depth", .receiver = "virtual"},
+    {.golden = "pcf5", .method = "second-depth", .receiver = "virtual", .reconstruct = "pcf5"},
+    {.golden = "silhouette", .method = "silhouette"},
+    {.golden = "warped-silhouette", .method = "silhouette", .parameterise = "msf+rectilinear"},
+    {.golden = "dv-nonorthogonal", .method = "second-depth", .receiver = "virtual", .parameterise = "dv+nonorthogonal"},
+    {.golden = "volumes", .method = "volumes"},
+    {.method = "constant"},
+    {.method = "slope", .reconstruct = "jitter4x4", .parameterise = "rectilinear-distance", .smoothing = "2"},
+    {.method = "mixed", .receiver = "virtual", .reconstruct = "crossing"},
 };
 
 enum { CHAINS = sizeof chains / sizeof *chains };
@@ -29,11 +39,15 @@ static void values_of(const char *values[RENDER_OPTION_COUNT], const chain *c)
 {
     memset(values, 0, RENDER_OPTION_COUNT * sizeof *values);
     values[RENDER_METHOD] = c->method;
+    values[RENDER_RECEIVER] = c->receiver;
     values[RENDER_RECONSTRUCT] = c->reconstruct;
     values[RENDER_PARAMETERISE] = c->parameterise;
-    values[RENDER_SIZE] = size;
+    values[RENDER_SMOOTHING] = c->smoothing;
+    values[RENDER_BIAS] = c->bias;
+    values[RENDER_LAYERS] = c->layers;
+    values[RENDER_SIZE] = "160x120";
     if (strcmp(c->method, "volumes") != 0)
-        values[RENDER_MAP] = "96x64";
+        values[RENDER_MAP] = "128";
 }
 
 static int read_scene(packed_scene *packed, const char *name)
@@ -41,16 +55,48 @@ static int read_scene(packed_scene *packed, const char *name)
     char file[64];
     problem why;
     snprintf(file, sizeof file, "%s.scene", name);
-    if (procedural_write(name, sandbox_folder) || packed_read(packed, sandbox_path(file), 0, &why) ||
-        packed_make_edges(packed, 0, &why)) {
-        note("%s cannot be made", name);
-        return -1;
-    }
-    return 0;
+    return procedural_write(name, sandbox_folder) || packed_read(packed, sandbox_path(file), 0, &why) ||
+                   packed_make_edges(packed, 0, &why)
+               ? -1
+               : 0;
 }
 
-/* With three workers and regions that are no lane's. */
-static int render_frame(frame *f, packed_scene *packed, const char *const values[], problem *why)
+/* ---- masks ------------------------------------------------------------------------------------------------------- */
+
+/* tests/golden/hashes.txt: DEPTH SCENE METHOD STAGE HASH. 0: not there. */
+static stage_hash golden_mask(int depth_bits, const char *scene, const char *method)
+{
+    char line[256], start[128];
+    stage_hash hash = 0;
+    FILE *file = fopen("tests/golden/hashes.txt", "r");
+    snprintf(start, sizeof start, "%d %s %s mask ", depth_bits, scene, method);
+    while (file && fgets(line, sizeof line, file))
+        if (strncmp(line, start, strlen(start)) == 0)
+            hash = strtoull(line + strlen(start), 0, 16);
+    if (file)
+        fclose(file);
+    return hash;
+}
+
+static stage_hash hash_of(const lane_frame *f)
+{
+    stage_hash hash = stage_hash_init();
+    for (size_t i = 0; i < (size_t)f->width * f->height; i++)
+        hash = stage_hash_u8(hash, f->mask[i]);
+    return hash;
+}
+
+/* How many pixels of the mask lie between the two values, both included. */
+static uint32_t pixels_between(const lane_frame *f, int least, int most)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < (size_t)f->width * f->height; i++)
+        count += f->mask[i] >= least && f->mask[i] <= most;
+    return count;
+}
+
+/* Of the program's own core with three workers, and regions that are no lane's. */
+static int render_own(frame *f, packed_scene *packed, const char *const values[], problem *why)
 {
     gn_settings settings;
     if (render_options_read(&settings, packed, values, why))
@@ -67,48 +113,140 @@ static int render_frame(frame *f, packed_scene *packed, const char *const values
                : 0;
 }
 
-/* How many pixels of the mask lie between the two values, both included. */
-static uint32_t pixels_between(const lane_frame *f, int least, int most)
+static int is_own(const lane_frame *got, packed_scene *packed, const char *const values[])
 {
-    uint32_t count = 0;
-    for (size_t i = 0; i < (size_t)f->width * f->height; i++)
-        count += f->mask[i] >= least && f->mask[i] <= most;
-    return count;
-}
-
-static int mask_is(const lane_frame *f, const uint8_t *mask)
-{
-    return memcmp(f->mask, mask, (size_t)f->width * f->height) == 0;
+    frame f = {.context = 0};
+    problem why;
+    int same =
+        render_own(&f, packed, values, &why) == 0 && memcmp(got->mask, f.mask, (size_t)got->width * got->height) == 0;
+    frame_close(&f);
+    return same;
 }
 
 static void check_chain(const lane *l, packed_scene *packed, const char *scene, const chain *c)
 {
     const char *values[RENDER_OPTION_COUNT];
-    frame f = {.context = 0};
     lane_frame got = {.mask = 0};
     problem why = {""};
     values_of(values, c);
-    int done = l->render(&got, packed, values, 1, &why) == 0 && render_frame(&f, packed, values, &why) == 0;
+    int done = l->render(&got, packed, values, 2, &why) == 0;
     if (!done)
         note("%s", why.text);
     uint32_t shadowed = done ? pixels_between(&got, 0, 126) : 0, lit = done ? pixels_between(&got, 127, 254) : 0;
-    int same = done && (l->depth_bits != GN_DEPTH_BITS || mask_is(&got, f.mask));
+    int golden = done && (!c->golden || hash_of(&got) == golden_mask(l->depth_bits, scene, c->golden));
+    int own = done && (l->depth_bits != GN_DEPTH_BITS || is_own(&got, packed, values));
     int counted = done && (l->counts || got.statistics.pixels_shaded == shadowed + lit);
-    if (!ok(same && counted && shadowed > 100 && lit > 100, "%s_%s_of_lane_%d%s_is_the_program's", scene, got.settings,
-            l->depth_bits, l->counts ? "_counted" : ""))
-        note("same %d, counted %d, %u shadowed, %u lit", same, counted, (unsigned)shadowed, (unsigned)lit);
-    frame_close(&f);
+    if (!ok(golden && own && counted && shadowed > 100 && lit > 100, "%s, lane of %d bits%s, %s", scene, l->depth_bits,
+            l->counts ? " that counts" : "", got.settings))
+        note("as the golden hash: %d; as the program's own: %d; pixels counted: %d; %u shadowed, %u lit", golden, own,
+             counted, (unsigned)shadowed, (unsigned)lit);
     lane_frame_free(&got);
+}
+
+/* ---- operations -------------------------------------------------------------------------------------------------- */
+
+typedef struct counting {
+    const lane *of;
+    const packed_scene *packed;
+    const char *values[RENDER_OPTION_COUNT];
+    lane_frame frame;
+    int result;
+    problem why;
+} counting;
+
+static void *count(void *user)
+{
+    counting *c = user;
+    c->result = c->of->render(&c->frame, c->packed, (const char *const *)c->values, 1, &c->why);
+    return 0;
+}
+
+/* Each thread counts its own frames: two at once count what one alone does. */
+static void check_threads(const lane *l, const packed_scene *packed)
+{
+    counting jobs[3] = {{.of = l, .packed = packed}};
+    pthread_t thread;
+    values_of(jobs[0].values, &chains[6]);
+    jobs[1] = jobs[2] = jobs[0];
+    count(&jobs[0]);
+    int started = pthread_create(&thread, 0, count, &jobs[1]) == 0;
+    count(&jobs[2]);
+    if (started)
+        pthread_join(thread, 0);
+    int same = started && !jobs[0].result && !jobs[1].result && !jobs[2].result;
+    for (int i = 1; i < 3 && same; i++)
+        same = memcmp(jobs[i].frame.operations, jobs[0].frame.operations, sizeof jobs[0].frame.operations) == 0;
+    ok(same, "two_threads_count_what_one_does_%d", l->depth_bits);
+    for (int i = 0; i < 3; i++)
+        lane_frame_free(&jobs[i].frame);
+}
+
+/* Of a frame of this many rows whose camera looks away. */
+static int count_background(lane_frame *f, const lane *l, const packed_scene *packed, const char *size)
+{
+    packed_scene away = *packed;
+    counting job = {.of = l, .packed = &away};
+    for (int i = 0; i < 3; i++) {
+        away.camera.right[i] = -packed->camera.right[i];
+        away.camera.forward[i] = -packed->camera.forward[i];
+    }
+    values_of(job.values, &chains[CHAINS - 3]);
+    job.values[RENDER_SIZE] = size;
+    count(&job);
+    *f = job.frame;
+    if (job.result)
+        note("%s", job.why.text);
+    return job.result;
+}
+
+/* Twice as many rows of nothing are twice as many regions, each of which divides its number by that of the columns and
+ * takes the remainder, in the clearing of its pixels stores a Q and a triangle, and in their colouring a colour. */
+static void check_background(const lane *l, const packed_scene *packed)
+{
+    lane_frame low, high;
+    int result = count_background(&low, l, packed, "160x160") | count_background(&high, l, packed, "160x320");
+    const uint64_t *a = low.operations[LANE_CAMERA], *b = high.operations[LANE_CAMERA];
+    uint32_t regions = high.plan.camera_regions - low.plan.camera_regions, pixels = 160 * 160;
+    for (int i = 0; i < LANE_OPERATIONS; i++)
+        note("%" PRIu64 " %" PRIu64, a[i], b[i]);
+    note("%u regions, %u pixels", regions, pixels);
+    ok(!result && regions > 0 && b[LANE_DIVIDE] - a[LANE_DIVIDE] == 2 * (uint64_t)regions, "a_region_divides_twice_%d",
+       l->depth_bits);
+    lane_frame_free(&low);
+    lane_frame_free(&high);
+}
+
+/* ---- all --------------------------------------------------------------------------------------------------------- */
+
+static void check_lane(int depth_bits, int counts, packed_scene *packed, const char *scene)
+{
+    const lane *l = lane_find(depth_bits, counts);
+    if (!l) {
+        note("no lane of %d bits%s in this program", depth_bits, counts ? " that counts" : "");
+        return;
+    }
+    for (int i = 0; i < CHAINS; i++)
+        check_chain(l, packed, scene, &chains[i]);
+    if (counts) {
+        check_threads(l, packed);
+        check_background(l, packed);
+    }
 }
 
 int main(void)
 {
-    packed_scene packed = {.mesh_count = 0};
+    static const char *const scenes[] = {"lshape", "torus2"};
     sandbox_open();
-    if (ok(read_scene(&packed, "lshape") == 0, "there_is_a_scene"))
-        for (int i = 0; i < CHAINS; i++)
-            check_chain(lane_find(GN_DEPTH_BITS, 0), &packed, "lshape", &chains[i]);
-    packed_free(&packed);
+    ok(lane_find(GN_DEPTH_BITS, 0) && !lane_find(8, 0) && !lane_find(8, 1), "there_is_the_program's_own_lane");
+    for (int i = 0; i < 2; i++) {
+        packed_scene packed = {.mesh_count = 0};
+        if (ok(read_scene(&packed, scenes[i]) == 0, "there_is_the_scene_%s", scenes[i]))
+            for (int counts = 0; counts < 2; counts++) {
+                check_lane(16, counts, &packed, scenes[i]);
+                check_lane(32, counts, &packed, scenes[i]);
+            }
+        packed_free(&packed);
+    }
     sandbox_close();
     return tap_done();
 }
