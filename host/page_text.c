@@ -1,0 +1,142 @@
+#include "markup.h"
+#include "page_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+plot_text page_error(double error)
+{
+    plot_text t, number = plot_number(error);
+    if (error > 0)
+        snprintf(t.text, sizeof t.text, "%.24s\xc2\xa0%%", number.text);
+    else
+        snprintf(t.text, sizeof t.text, "no pixel");
+    return t;
+}
+
+plot_text page_at_cost(const page *p, const sweep_row *row)
+{
+    static const char *const formats[] = {" at %.12s instructions a pixel", " at %.12s times constant"};
+    plot_text t = {""};
+    double cost = advice_cost_of(row, p->cost);
+    if (!isnan(cost)) {
+        plot_text number = plot_number(cost);
+        snprintf(t.text, sizeof t.text, formats[p->cost == ADVICE_HOST_RATIO], number.text);
+    }
+    return t;
+}
+
+void page_write_choice(const page *p, const sweep_row *row)
+{
+    fputs("<b>", p->stream);
+    markup_text(p->stream, row->chain);
+    fputs("</b>", p->stream);
+    if (row->map > 0)
+        fprintf(p->stream,
+                " (map\xc2\xa0%.0f\xc2\xa0\xc3\x97\xc2\xa0%.0f, %.0f\xc2\xa0"
+                "bits)",
+                row->map, row->map, row->depth_bits);
+}
+
+/* ---- advice ----------------------------------------------------------------------------------------------------- */
+
+static void write_wrong(const page *p, const sweep_row *row)
+{
+    fprintf(p->stream, "%s wrong%s", page_error(row->error).text, page_at_cost(p, row).text);
+}
+
+static void write_budget(const page *p, const advice_rows *of, double budget)
+{
+    const sweep_row *best = advice_best(of, budget);
+    if (!best)
+        return;
+    const sweep_row *cheaper = advice_cheaper(of, budget, best), *avoid = advice_avoid(of, budget, best);
+    fprintf(p->stream, "<li>For %s take ", plot_bytes(budget).text);
+    page_write_choice(p, best);
+    fputs(": ", p->stream);
+    write_wrong(p, best);
+    fputs(".", p->stream);
+    if (cheaper) {
+        fputs(" Nearly as good for less: ", p->stream);
+        page_write_choice(p, cheaper);
+        fputs(", ", p->stream);
+        write_wrong(p, cheaper);
+        fputs(".", p->stream);
+    }
+    if (avoid) {
+        fputs(" Avoid ", p->stream);
+        page_write_choice(p, avoid);
+        fputs(": no cheaper, and ", p->stream);
+        write_wrong(p, avoid);
+        fputs(".", p->stream);
+    }
+    fputs("</li>\n", p->stream);
+}
+
+static void write_without_map(const page *p, const advice_rows *of)
+{
+    const sweep_row *row = advice_without_map(of);
+    if (!row)
+        return;
+    fputs("<li>Without a map: ", p->stream);
+    page_write_choice(p, row);
+    fputs(", ", p->stream);
+    write_wrong(p, row);
+    if (!isnan(row->peak_bytes))
+        fprintf(p->stream, ", %s of memory in all", plot_bytes(row->peak_bytes).text);
+    fputs(".</li>\n", p->stream);
+}
+
+void page_write_advice(const page *p, const page_rows *rows)
+{
+    advice_rows of = {rows->rows, rows->count, p->cost};
+    fputs("<ul class=\"advice\">\n", p->stream);
+    for (size_t i = 0; i < p->budget_count; i++)
+        write_budget(p, &of, p->budgets[i]);
+    if (!p->budget_count)
+        write_budget(p, &of, INFINITY);
+    write_without_map(p, &of);
+    fputs("</ul>\n", p->stream);
+}
+
+/* ---- depths ----------------------------------------------------------------------------------------------------- */
+
+/* The same chain and map at the scene's least depth; a budget gives each depth a map of its own. 0: none. */
+static const sweep_row *at_least_depth(const page_rows *rows, const sweep_row *row)
+{
+    for (size_t i = 0; i < rows->count; i++)
+        if (rows->rows[i]->depth_bits == rows->least_depth && rows->rows[i]->map == row->map &&
+            strcmp(rows->rows[i]->chain, row->chain) == 0)
+            return rows->rows[i];
+    return 0;
+}
+
+void page_write_depths(const page *p, const page_rows *rows)
+{
+    double sum = 0, most = -1;
+    int count = 0;
+    const sweep_row *where = 0;
+    for (size_t i = 0; i < rows->count; i++) {
+        const sweep_row *row = rows->rows[i], *other = at_least_depth(rows, row);
+        if (row->depth_bits == rows->least_depth || !other || isnan(row->error) || isnan(other->error))
+            continue;
+        double change = row->error - other->error;
+        sum += change;
+        count++;
+        if (fabs(change) > most) {
+            most = fabs(change);
+            where = row;
+        }
+    }
+    if (!where)
+        return;
+    fprintf(p->stream,
+            "<p class=\"small\">%.0f bits of depth instead of %.0f, at the same map and so for more bytes, change the "
+            "wrong "
+            "pixels by %+.4f percentage points in the mean of %d pairs, by %.4f at most (",
+            where->depth_bits, rows->least_depth, sum / count, count, most);
+    markup_text(p->stream, where->chain);
+    if (where->map > 0)
+        fprintf(p->stream, ", map\xc2\xa0%.0f\xc2\xa0\xc3\x97\xc2\xa0%.0f", where->map, where->map);
+    fputs(").</p>\n", p->stream);
+}
