@@ -1,7 +1,6 @@
 #include "lane.h"
 
 #include "choices.h"
-#include "frame.h"
 #include "memory.h"
 #include "render_options.h"
 #include "settings_report.h"
@@ -10,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #ifndef LANE_COUNTS
 #define LANE_COUNTS 0
@@ -137,6 +137,14 @@ static int refused(const job *j, gn_status status, const char *pass, problem *wh
     return problem_of_usage(why, "the %s pass failed: %s (status %d)", pass, status_text(status), (int)status);
 }
 
+/* Seconds that this thread was at work: other threads of the machine do not count. */
+static double thread_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 /* A frame; f: its times, where they are less than those before, and its operations. */
 static int render_frame(lane_frame *f, job *j, int first, problem *why)
 {
@@ -146,9 +154,9 @@ static int render_frame(lane_frame *f, job *j, int first, problem *why)
 #if LANE_COUNTS
         memset(lane_counters, 0, sizeof lane_counters);
 #endif
-        double start = frame_clock();
+        double start = thread_clock();
         gn_status status = passes[pass].run(j);
-        double seconds = frame_clock() - start;
+        double seconds = thread_clock() - start;
         if (status != GN_OK)
             return refused(j, status, passes[pass].name, why);
         if (first || seconds < f->seconds[pass])
@@ -202,19 +210,34 @@ static void write_settings(lane_frame *f, const gn_settings *settings, int scale
     }
 }
 
+/* 0, or -1 and nothing to free. */
+static int begin(lane_frame *f, gn_settings *settings, const packed_scene *packed, const char *const values[],
+                 problem *why)
+{
+    memset(f, 0, sizeof *f);
+    if (read_settings(settings, packed, values, why) || plan(&f->plan, packed, values, why))
+        return -1;
+    f->width = settings->width;
+    f->height = settings->height;
+    write_settings(f, settings, packed->scale);
+    return 0;
+}
+
+static int measure(lane_frame *f, const packed_scene *packed, const char *const values[], int runs, problem *why)
+{
+    gn_settings settings;
+    return begin(f, &settings, packed, values, why) || render_counted(f, packed, &settings, runs, why) ? -1 : 0;
+}
+
 static int render(lane_frame *f, const packed_scene *packed, const char *const values[], int runs, problem *why)
 {
     gn_settings settings;
-    memset(f, 0, sizeof *f);
-    if (read_settings(&settings, packed, values, why) || plan(&f->plan, packed, values, why))
+    if (begin(f, &settings, packed, values, why))
         return -1;
-    f->width = settings.width;
-    f->height = settings.height;
-    write_settings(f, &settings, packed->scale);
-    if (!render_counted(f, packed, &settings, runs, why) && !render_mask(f, packed, &settings, why))
+    if ((!runs || !render_counted(f, packed, &settings, runs, why)) && !render_mask(f, packed, &settings, why))
         return 0;
     lane_frame_free(f);
     return -1;
 }
 
-const lane lane_here = {GN_DEPTH_BITS, LANE_COUNTS, render, plan};
+const lane lane_here = {GN_DEPTH_BITS, LANE_COUNTS, render, measure, plan};

@@ -39,8 +39,8 @@ typedef struct lane_frame {
      * silhouette_edges. */
     gn_statistics statistics;
     uint32_t width, height;
-    uint8_t *mask;                                     /* width x height, as settings.mask has it; free() it */
-    double seconds[LANE_PASSES];                       /* least of the runs; 0 for a pass that is not */
+    uint8_t *mask;               /* width x height, as settings.mask has it; free() it */
+    double seconds[LANE_PASSES]; /* of processor time, least of the runs; 0 for a pass that is not */
     uint64_t operations[LANE_PASSES][LANE_OPERATIONS]; /* of one frame; zeros in a lane that does not count */
     char settings[512];                                /* settings_report_text, or "shadow volumes" */
 } lane_frame;
@@ -51,9 +51,12 @@ typedef struct lane_frame {
 typedef struct lane {
     int depth_bits, counts;
 
-    /* Render `runs` frames, 1 or more, and one for the mask. lane_frame_free() it; after an error there is nothing to
-     * free. */
+    /* Render `runs` frames, 0 or more, and one for the mask; 0 leaves statistics, seconds and operations zero.
+     * lane_frame_free() it; after an error there is nothing to free. */
     int (*render)(lane_frame *f, const packed_scene *packed, const char *const values[], int runs, problem *why);
+
+    /* The same without the mask, runs 1 or more: nothing to free. */
+    int (*measure)(lane_frame *f, const packed_scene *packed, const char *const values[], int runs, problem *why);
 
     /* lane_frame.plan alone, for sizes that fit a budget. */
     int (*plan)(gn_plan *plan, const packed_scene *packed, const char *const values[], problem *why);
