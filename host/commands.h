@@ -10,9 +10,10 @@ int command_pack(int argc, char **argv);
 int command_bench(int argc, char **argv);
 int command_procedural(int argc, char **argv);
 int command_truth(int argc, char **argv);
+int command_sweep(int argc, char **argv);
 
 /* What `gnomon` and `gnomon --help` say of each, in one line. */
 extern const char render_summary[], compare_summary[], pack_summary[], bench_summary[], procedural_summary[],
-    truth_summary[];
+    truth_summary[], sweep_summary[];
 
 #endif

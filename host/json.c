@@ -22,33 +22,65 @@ static void indent(const json *j)
         fputs("  ", j->stream);
 }
 
+static void begin_line(json *j)
+{
+    fputs(j->members++ ? ",\n" : "\n", j->stream);
+    indent(j);
+}
+
 static void begin_member(json *j, const char *name)
 {
     if (!name)
         return;
-    fputs(j->members++ ? ",\n" : "\n", j->stream);
-    indent(j);
+    begin_line(j);
     quote(j->stream, name);
     fputs(": ", j->stream);
+}
+
+static void begin_inside(json *j, char bracket)
+{
+    putc(bracket, j->stream);
+    j->depth++;
+    j->members = 0;
+}
+
+static void end_inside(json *j, char bracket)
+{
+    j->depth--;
+    j->members = 1; /* what is just closed is a member of what is outside */
+    putc('\n', j->stream);
+    indent(j);
+    putc(bracket, j->stream);
+    if (!j->depth)
+        putc('\n', j->stream);
 }
 
 void json_open(json *j, const char *name)
 {
     begin_member(j, name);
-    putc('{', j->stream);
-    j->depth++;
-    j->members = 0;
+    begin_inside(j, '{');
 }
 
 void json_close(json *j)
 {
-    j->depth--;
-    j->members = 1; /* the object just closed is a member of the one outside */
-    putc('\n', j->stream);
-    indent(j);
-    putc('}', j->stream);
-    if (!j->depth)
-        putc('\n', j->stream);
+    end_inside(j, '}');
+}
+
+void json_open_list(json *j, const char *name)
+{
+    begin_member(j, name);
+    begin_inside(j, '[');
+}
+
+void json_open_item(json *j)
+{
+    begin_line(j);
+    begin_inside(j, '{');
+}
+
+void json_close_list(json *j)
+{
+    end_inside(j, ']');
 }
 
 void json_string(json *j, const char *name, const char *value)

@@ -12,6 +12,7 @@ static const struct {
     {"render", render_summary, command_render},    {"truth", truth_summary, command_truth},
     {"compare", compare_summary, command_compare}, {"pack", pack_summary, command_pack},
     {"bench", bench_summary, command_bench},       {"procedural", procedural_summary, command_procedural},
+    {"sweep", sweep_summary, command_sweep},
 };
 
 enum { COMMANDS = sizeof commands / sizeof *commands };
@@ -47,8 +48,9 @@ int main(int argc, char **argv)
     for (int i = 0; i < COMMANDS; i++)
         if (strcmp(argv[1], commands[i].name) == 0)
             return commands[i].run(argc - 2, argv + 2);
-    int planned = strcmp(argv[1], "sweep") == 0;
-    fprintf(stderr, "gnomon: %s '%s'; expected render, truth, compare, pack, bench or procedural (gnomon --help)\n",
-            planned ? "not built yet:" : "unknown command", argv[1]);
+    fprintf(stderr,
+            "gnomon: unknown command '%s'; expected render, truth, compare, pack, bench, procedural or sweep (gnomon "
+            "--help)\n",
+            argv[1]);
     return EXIT_BAD_INPUT;
 }

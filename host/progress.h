@@ -11,6 +11,9 @@ typedef struct progress {
 
 progress progress_start(const char *what);
 void progress_show(progress *p, unsigned done, unsigned total);
+
+/* The same, and how long the rest will take. share: of the work that is done, 0 to 1. */
+void progress_show_left(progress *p, unsigned done, unsigned total, double share);
 void progress_end(progress *p);
 
 #endif
