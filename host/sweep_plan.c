@@ -17,6 +17,9 @@ size_t sweep_resident_bytes(const gn_plan *plan)
 
 void sweep_cell_leave_out(sweep_cell *cell, const char *reason)
 {
+    static const char prefix[] = "gnomon: "; /* of a problem with a command line, which this is not */
+    if (strncmp(reason, prefix, strlen(prefix)) == 0)
+        reason += strlen(prefix);
     cell->reason = memory_take(strlen(reason) + 1, 1);
     memcpy(cell->reason, reason, strlen(reason));
 }

@@ -34,7 +34,7 @@ int sweep_plan_make(sweep_plan *plan, const sweep_request *request, const sweep_
 
 void sweep_plan_free(sweep_plan *plan);
 
-/* Leave a cell out. */
+/* Leave a cell out. reason: as a problem has it. */
 void sweep_cell_leave_out(sweep_cell *cell, const char *reason);
 
 /* Bytes that stay between the passes: the map, silhouettes or crossings, and where the texels of a warp lie. */
