@@ -49,7 +49,7 @@ count_of() {
     awk -v name="$1" '{ gsub(/[",:]/, " ") } $1 == name { print $2 }' "$2"
 }
 
-for command in render truth compare pack bench procedural; do
+for command in render truth compare pack bench procedural sweep; do
     check "help_of_${command}_names_its_use_and_status_2" sh -c "'$gnomon' $command --help | grep -q 'usage: gnomon $command' &&
         '$gnomon' $command --help | grep -q '2 bad usage'"
     check "${command}_without_arguments_is_bad_usage" status 2 $command
@@ -58,7 +58,6 @@ done
 check "help_lists_the_commands" sh -c "'$gnomon' --help | grep -q procedural"
 check "no_command_is_bad_usage" status 2
 check "an_unknown_command_is_bad_usage" refuses "unknown command 'rendre'" rendre
-check "a_planned_command_is_named_as_such" refuses "not built yet" sweep
 
 check "a_procedural_scene_is_written" status 0 procedural lshape -o "$folder/made"
 check "an_unknown_procedural_scene_is_refused" refuses "unknown scene 'none'" procedural none -o "$folder"
