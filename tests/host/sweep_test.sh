@@ -10,7 +10,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 nothing_left() {
-    left=$(find "$folder" -name '[0-9]*-*' -o -name 'new*')
+    left=$(find "$folder" -name '[0-9]*-*' -o -name 'new')
     [ -z "$left" ] || { echo "left behind: $left"; return 1; }
 }
 
@@ -55,7 +55,7 @@ table=$folder/table.scene
 
 check "a_sweep_is_done" status 0 sweep "$scene" -o "$folder/a" --depths 16 --maps 32,120 --budgets 9K,32K --size 48x40
 csv=$folder/a/sweep.csv
-check "it_leaves_these_files" test "$(ls "$folder/a" | tr '\n' ' ')" = "$(for f in fence.truth.pgm $(ls "$folder/a" | grep -x index.html) sweep.csv sweep.json; do printf '%s ' "$f"; done)"
+check "it_leaves_these_files" test "$(find "$folder/a" -type f ! -name index.html | sed 's/.*\///' | sort | tr '\n' ' ')" = "fence.truth.pgm sweep.csv sweep.json "
 check "31_chains_have_a_map_at_4_sizes_and_volumes_a_row" test "$(column chain "$csv" | wc -l)" = 125
 check "json_has_as_many" test "$(grep -c '"key":' "$folder/a/sweep.json")" = 125
 "$gnomon" truth "$scene" --size 48x40 --mask "$folder/truth.pgm" >/dev/null
@@ -117,42 +117,43 @@ check "the_bias_is_that_of_the_options" test "$(cell options constant-best 32 "$
 # is_largest_for BUDGET CHAIN: its map fits, and one of a texel more does not.
 is_largest_for() {
     map=$(awk -F, -v budget="$1" -v chain="$2" '$6 == budget && $2 == chain { print $5 }' "$csv")
-    options=$(cell options "$2" "$map" "$csv")
-    for size in "$map" $((map + 1)); do
-        # shellcheck disable=SC2086
-        "$gnomon" render "$scene" ${options% --map*} --map "$size" --size 48x40 --stats "$folder/stats.json" || return 1
-        sed -n '/"bytes"/,/}/p' "$folder/stats.json" >"$folder/bytes.json"
-        bytes=$(($(number map "$folder/bytes.json") + $(number silhouettes "$folder/bytes.json" | grep . || echo 0) + $(number warp "$folder/bytes.json" | grep . || echo 0)))
-        echo "map $size: $bytes"
-        if [ "$size" = "$map" ]; then
-            [ $bytes -le "$1" ] && [ $bytes = "$(awk -F, -v budget="$1" -v chain="$2" '$6 == budget && $2 == chain { print $14 }' "$csv")" ] || return 1
-        else
-            [ $bytes -gt "$1" ] || return 1
-        fi
-    done
+    status 0 sweep "$scene" -o "$folder/beyond" --depths 16 --methods "$2" --maps "$map,$((map + 1))" --budgets none --size 48x40 || return 1
+    fits=$(cell resident_bytes "$2" "$map" "$folder/beyond/sweep.csv")
+    beyond=$(cell resident_bytes "$2" $((map + 1)) "$folder/beyond/sweep.csv")
+    echo "map $map: $fits, one more: $beyond"
+    rm -r "$folder/beyond"
+    [ "$fits" -le "$1" ] && [ "$beyond" -gt "$1" ]
 }
 for chain in constant silhouette crossing/msf+rectilinear mixed+virtual/dv+nonorthogonal; do
     check "the_largest_map_of_9K_by_$chain" is_largest_for 9216 $chain
 done
-# (n + 16) n 2 bytes: 120 for 32640 of 32768; the row of a size that was asked for, 120, is the same but for its budget and key.
-check "rows_of_one_map_are_the_same" test "$(awk -F, -v OFS=, '$2 == "mixed" && $5 == 120 { $6 = $NF = ""; print }' "$csv" | uniq | wc -l)" = 1
-check "and_there_are_two" test "$(awk -F, '$2 == "mixed" && $5 == 120' "$csv" | wc -l)" = 2
+# A row of the map has so many texels beyond its end: 0 in a firmware's core, 16 in that of a processor with vectors.
+padding=$(($(cell resident_bytes constant 32 "$csv") / 64 - 32))
+check "a_map_has_two_bytes_a_texel" test $padding = 0 -o $padding = 16
+check "that_of_silhouettes_one_more" sh -c "extra=\$(($(cell resident_bytes silhouette 32 "$csv") - $(cell resident_bytes constant 32 "$csv")))
+    [ \$extra -ge 1024 ] && [ \$extra -le 1152 ]"
+# 2 n (n + padding) <= 32768
+wide=$([ $padding = 0 ] && echo 128 || echo 120)
+check "32K_hold_a_map_of_$wide" test "$(awk -F, '$6 == 32768 && $2 == "mixed" { print $5 }' "$csv")" = "$wide"
+check "a_map_that_was_asked_for_as_well_has_the_same_row" sh -c "'$gnomon' sweep '$scene' -o '$folder/twins' --depths 16 --methods mixed,constant --maps $wide --budgets 32K --size 48x40 >'$folder/out' &&
+    [ \$(awk -F, -v OFS=, '\$2 == \"mixed\" { \$6 = \$NF = \"\"; print }' '$folder/twins/sweep.csv' | wc -l) = 2 ] &&
+    [ \$(awk -F, -v OFS=, '\$2 == \"mixed\" { \$6 = \$NF = \"\"; print }' '$folder/twins/sweep.csv' | uniq | wc -l) = 1 ]"
 
 # ---- order, interruption ----------------------------------------------------------------------------------------------
 
-few="--depths 16 --maps 32,64 --budgets 9K --size 32x24"
+few="--depths 16 --maps 32,64 --budgets 9K --size 32x24 --methods constant,constant-best,slope,midpoint,dual,second-depth,mixed,adaptive,plane-bias,mixed+virtual,bilinear,silhouette,crossing,mixed+virtual/dv,silhouette/msf+rectilinear,volumes"
 # shellcheck disable=SC2086
 check "one_worker" status 0 sweep "$scene" "$table" -o "$folder/one" $few --workers 1
 # shellcheck disable=SC2086
 check "seven_workers" status 0 sweep "$scene" "$table" -o "$folder/seven" $few --workers 7
 check "make_the_same_rows_in_the_same_order" same_rows "$folder/one/sweep.csv" "$folder/seven/sweep.csv"
 
-# interrupted_by SIGNAL STATUS: when twenty rows are there, and then it goes on.
+# interrupted_by SIGNAL STATUS: when ten rows are there, and then it goes on.
 interrupted_by() {
     rm -rf "$folder/cut"
     mkdir "$folder/cut"
     (
-        until [ -e "$folder/cut/sweep.csv" ] && [ "$(wc -l <"$folder/cut/sweep.csv")" -gt 20 ]; do sleep 0.01; done
+        until [ -e "$folder/cut/sweep.csv" ] && [ "$(wc -l <"$folder/cut/sweep.csv")" -gt 10 ]; do sleep 0.01; done
         kill -s "$1" "$(cat "$folder/pid")"
     ) &
     # shellcheck disable=SC2086
@@ -161,7 +162,7 @@ interrupted_by() {
     wait
     [ $got = "$2" ] || { echo "exit status $got, expected $2"; return 1; }
     lines=$(wc -l <"$folder/cut/sweep.csv")
-    [ "$lines" -gt 20 ] && [ "$lines" -lt 188 ] || { echo "$lines lines"; return 1; }
+    [ "$lines" -gt 10 ] && [ "$lines" -lt 93 ] || { echo "$lines lines"; return 1; }
     [ ! -s "$folder/out" ] && [ ! -e "$folder/cut/sweep.json" ] && nothing_left || return 1
     # shellcheck disable=SC2086
     status 0 sweep "$scene" "$table" -o "$folder/cut" $few 2>"$folder/err2" || return 1
@@ -177,15 +178,19 @@ cut_line_is_dropped() {
     status 0 sweep "$scene" "$table" -o "$folder/cut" $few && same_rows "$folder/one/sweep.csv" "$folder/cut/sweep.csv"
 }
 check "a_cut_line_is_dropped" cut_line_is_dropped
+more_is_added() {
+    # shellcheck disable=SC2086
+    status 0 sweep "$scene" "$table" -o "$folder/cut" ${few%,volumes},jitter4x4,volumes && [ "$(wc -l <"$folder/cut/sweep.csv")" = 99 ]
+}
+check "more_is_added_to_what_is_there" more_is_added
 check "a_cut_first_line_too" sh -c "printf 'scene,ch' >'$folder/cut/sweep.csv' &&
     '$gnomon' sweep '$table' -o '$folder/cut' --depths 16 --methods volumes --size 8x6 && [ \$(wc -l <'$folder/cut/sweep.csv') = 2 ]"
-check "more_is_added_to_what_is_there" status 0 sweep "$scene" "$table" -o "$folder/one" --depths 16 --maps 32,64 --budgets 9K,20K --size 32x24
 
 # ---- odd scenes -------------------------------------------------------------------------------------------------------
 
 mkdir "$folder/other"
 cp "$folder"/fence* "$folder/other"
-check "two_scenes_may_have_one_name" status 0 sweep "$scene" "$folder/other/fence.scene" -o "$folder/names" --depths 16 --maps 16 --budgets none --size 1x1
+check "two_scenes_may_have_one_name" status 0 sweep "$scene" "$folder/other/fence.scene" -o "$folder/names" --depths 16 --maps 16 --budgets none --size 1x1 --methods constant,silhouette,silhouette/msf+rectilinear,volumes
 check "the_second_gets_a_number" test "$(column scene "$folder/names/sweep.csv" | uniq | tr '\n' ' ')" = "fence fence-2 "
 sed 's/^light.*/light point position 0 6 0 near 0.5 far 60/' "$scene" >"$folder/point.scene"
 check "a_point_light_has_maps" status 0 sweep "$folder/point.scene" -o "$folder/point" --depths 16 --maps 24 --budgets none --size 12x10
@@ -214,8 +219,7 @@ check "a_size_out_of_range" refuses "'4097'" sweep "$scene" -o "$new" --maps 64,
 check "no_size_at_all" refuses "leave no map" sweep "$scene" -o "$new" --maps none --budgets none
 check "bytes_in_another_unit" refuses "'32G'" sweep "$scene" -o "$new" --budgets 32G
 check "an_unknown_depth" refuses "--depths 24" sweep "$scene" -o "$new" --depths 24
-# (2 + 16) x 2 x 2 bytes
-check "a_budget_that_no_map_fits" refuses "the smallest, 2 x 2, takes 72" sweep "$scene" -o "$new" --depths 16 --budgets 71
+check "a_budget_that_no_map_fits" refuses "the smallest, 2 x 2, takes $((4 * (2 + padding)))" sweep "$scene" -o "$new" --depths 16 --budgets 7
 # shellcheck disable=SC2086
 check "a_journal_of_another_size_of_image" refuses "another content" sweep "$scene" "$table" -o "$folder/cut" --depths 16 --methods volumes --size 8x7
 check "a_journal_of_other_rows" refuses "no row of this sweep" sweep "$scene" -o "$folder/a" --depths 16 --maps 32 --budgets none --size 48x40
