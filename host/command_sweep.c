@@ -3,6 +3,7 @@
 #include "file.h"
 #include "memory.h"
 #include "options.h"
+#include "sweep_page.h"
 #include "sweep_report.h"
 #include "sweep_work.h"
 
@@ -54,7 +55,8 @@ typedef struct job {
     sweep_scene *scenes;
     sweep_plan plan;
     sweep_journal journal;
-    char *csv, *json;
+    char *csv, *json, *page;
+    char *command; /* as typed */
     problem why;
 } job;
 
@@ -77,6 +79,7 @@ static int make_folder(job *j)
                           strerror(errno));
     j->csv = sweep_path(folder, "sweep", ".csv");
     j->json = sweep_path(folder, "sweep", ".json");
+    j->page = sweep_path(folder, "index", ".html");
     return file_can_write(j->json, &j->why);
 }
 
@@ -111,10 +114,11 @@ static int report(job *j)
 {
     int count = j->line.place_count;
     if (sweep_journal_finish(&j->journal, &j->plan, &j->why) ||
-        sweep_report_json(&j->plan, j->scenes, count, j->json, &j->why))
+        sweep_report_json(&j->plan, j->scenes, count, j->json, &j->why) ||
+        sweep_page_write(j->page, &j->plan, j->scenes, count, j->command, (int)j->request.workers, &j->why))
         return -1;
     sweep_report_left_out(stderr, &j->plan);
-    printf("%zu rows in %s and %s\n", count_rows(&j->plan, 1), j->csv, j->json);
+    printf("%zu rows in %s, %s and %s\n", count_rows(&j->plan, 1), j->csv, j->json, j->page);
     sweep_report_best(stdout, &j->plan, &j->request, j->scenes, count);
     return 0;
 }
@@ -147,18 +151,32 @@ static void release(job *j)
     free(j->scenes);
     free(j->csv);
     free(j->json);
+    free(j->page);
+    free(j->command);
+}
+
+static char *join(int argc, char **argv)
+{
+    static const char start[] = "gnomon sweep";
+    size_t length = sizeof start;
+    for (int i = 0; i < argc; i++)
+        length += strlen(argv[i]) + 1;
+    char *command = memory_take(length, 1);
+    strcat(command, start);
+    for (int i = 0; i < argc; i++)
+        strcat(strcat(command, " "), argv[i]);
+    return command;
 }
 
 int command_sweep(int argc, char **argv)
 {
     enum { OF_SIGNALS = 128 };
-    job j = {.scenes = 0};
+    job j = {.command = join(argc, argv)};
     int result = options_parse(table, OPTION_COUNT, argc, argv, j.values, &j.line, &j.why);
-    if (!result && j.values[HELP]) {
+    int helps = !result && j.values[HELP];
+    if (helps)
         help();
-        return EXIT_DONE;
-    }
-    if (!result)
+    else if (!result)
         result = sweep(&j);
     if (result)
         fprintf(stderr, "%s\n", j.why.text);

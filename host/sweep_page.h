@@ -1,0 +1,12 @@
+/* The page of a sweep: its rows, and a picture of each scene.
+ */
+#ifndef SWEEP_PAGE_H
+#define SWEEP_PAGE_H
+
+#include "sweep_plan.h"
+
+/* command: as typed. 0, or -1 and the problem. */
+int sweep_page_write(const char *path, const sweep_plan *plan, const sweep_scene *scenes, int scene_count,
+                     const char *command, int workers, problem *why);
+
+#endif
