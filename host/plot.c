@@ -403,10 +403,10 @@ static void label_point(drawing *d, size_t number, const char *name)
     double x = place_x(d, p->x), y = place_y(d, p->y), digits = LETTER_WIDTH * (number < 10 ? 1.1 : 2.2);
     plot_label l = {.found = 0};
     if (name)
-        l = plot_labels_place(&d->labels, x, y, digits + 4 + text_width(name), LETTER_HEIGHT, 90);
+        l = plot_labels_place(&d->labels, x, y, digits + 4 + text_width(name), LETTER_HEIGHT, PLOT_CROSSED);
     if (!l.found) {
         name = 0;
-        l = plot_labels_place(&d->labels, x, y, digits, LETTER_HEIGHT, 60);
+        l = plot_labels_place(&d->labels, x, y, digits, LETTER_HEIGHT, PLOT_HEAVY);
     }
     if (l.found)
         write_label(d, &l, number, name);
