@@ -76,8 +76,12 @@ static TAP_UNUSED int markup_is_balanced(part p)
             return note("a bare & in: %.40s", at), 0;
         if (*at == '>')
             return note("a bare > in: %.40s", at - 20), 0;
-        if (*at++ != '<' || *at == '!')
+        if (*at++ != '<')
             continue;
+        if (*at == '!') {
+            at = strchr(at, '>') + 1;
+            continue;
+        }
         int closes = *at == '/', quoted = 0;
         char name[16] = "";
         at += closes;
