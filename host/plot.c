@@ -75,8 +75,10 @@ size_t plot_front(size_t *front, const plot_point points[], size_t count)
 
 plot_text plot_number(double number)
 {
-    plot_text t;
+    plot_text t = {""};
     double size = fabs(number);
+    if (!isfinite(number))
+        return t;
     int digits = size >= 99.95 || size == 0 ? 0 : size >= 9.995 ? 1 : size >= 0.9995 ? 2 : 2 - (int)floor(log10(size));
     if (digits > 2 && size * pow(10, digits) >= 999.5) /* it is rounded up to a digit more */
         digits--;

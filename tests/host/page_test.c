@@ -336,6 +336,11 @@ static void sentences(void)
     ok(reads(section, 0, "For 32 KiB take best (map 181 × 181, 16 bits): 0.5 % wrong at 1.25 times constant.") &&
            part_count(section, "<svg class=\"plot\"") == 2,
        "without_instructions_the_time_of_this_machine_is_the_cost");
+    for (size_t i = 0; i < count; i++)
+        rows[i].budget = 0;
+    section = scene_section(write_page(&input, "in-hall.html"), 1);
+    ok(reads(section, 0, "Take large (map 400 × 400, 16 bits): no pixel wrong."),
+       "without_budgets_all_maps_are_of_one");
     rows[0].error = NAN;
     part all = write_page(&input, "in-hall.html");
     ok(markup_is_balanced(all) && !part_has(all, "nan") && !part_has(all, "inf"), "what_is_not_known_is_not_shown");

@@ -119,6 +119,7 @@ static void numbers(void)
             note("%.9g is %s, expected %s", cases[i].number, plot_number(cases[i].number).text, cases[i].text);
             wrong++;
         }
+    wrong += *plot_number(NAN).text || *plot_number(INFINITY).text;
     ok(wrong == 0, "numbers_have_three_digits_and_no_exponent");
     for (size_t i = 0; i < sizeof bytes / sizeof *bytes; i++)
         if (strcmp(plot_bytes(bytes[i].number).text, bytes[i].text) != 0) {
