@@ -51,7 +51,10 @@ static void write_budget(const page *p, const advice_rows *of, double budget)
     if (!best)
         return;
     const sweep_row *cheaper = advice_cheaper(of, budget, best), *avoid = advice_avoid(of, budget, best);
-    fprintf(p->stream, "<li>For %s take ", plot_bytes(budget).text);
+    if (isfinite(budget))
+        fprintf(p->stream, "<li>For %s take ", plot_bytes(budget).text);
+    else
+        fputs("<li>Take ", p->stream);
     page_write_choice(p, best);
     fputs(": ", p->stream);
     write_wrong(p, best);

@@ -75,8 +75,10 @@ size_t plot_front(size_t *front, const plot_point points[], size_t count)
 
 plot_text plot_number(double number)
 {
-    plot_text t;
+    plot_text t = {""};
     double size = fabs(number);
+    if (!isfinite(number))
+        return t;
     int digits = size >= 99.95 || size == 0 ? 0 : size >= 9.995 ? 1 : size >= 0.9995 ? 2 : 2 - (int)floor(log10(size));
     if (digits > 2 && size * pow(10, digits) >= 999.5) /* it is rounded up to a digit more */
         digits--;
@@ -403,10 +405,10 @@ static void label_point(drawing *d, size_t number, const char *name)
     double x = place_x(d, p->x), y = place_y(d, p->y), digits = LETTER_WIDTH * (number < 10 ? 1.1 : 2.2);
     plot_label l = {.found = 0};
     if (name)
-        l = plot_labels_place(&d->labels, x, y, digits + 4 + text_width(name), LETTER_HEIGHT, 90);
+        l = plot_labels_place(&d->labels, x, y, digits + 4 + text_width(name), LETTER_HEIGHT, PLOT_CROSSED);
     if (!l.found) {
         name = 0;
-        l = plot_labels_place(&d->labels, x, y, digits, LETTER_HEIGHT, 60);
+        l = plot_labels_place(&d->labels, x, y, digits, LETTER_HEIGHT, PLOT_HEAVY);
     }
     if (l.found)
         write_label(d, &l, number, name);

@@ -76,13 +76,14 @@ void plot_write_shapes(FILE *stream);
 void plot_write_sample(FILE *stream, plot_shape shape, int filled);
 void plot_write_line_sample(FILE *stream, size_t line);
 
-/* 1 to 999 with a suffix of binary multiples: 512, 32 KiB, 1.5 MiB. */
 typedef struct plot_text {
     char text[32];
 } plot_text;
-plot_text plot_bytes(double bytes);
 
-/* Three significant digits, no exponent, 0 as 0. */
+/* Three significant digits or all before the point, no exponent, 0 as 0; nothing for what is no number. */
 plot_text plot_number(double number);
+
+/* The same with a binary multiple: 512, 32 KiB, 1.5 MiB. */
+plot_text plot_bytes(double bytes);
 
 #endif

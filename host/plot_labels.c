@@ -17,6 +17,10 @@ enum { DIRECTIONS = sizeof directions / sizeof *directions };
 #define NEAREST 8.0
 #define JOINED 15.0
 #define STEP 4.0
+#define FARTHEST 160.0
+
+/* Outside of a point's own obstacle, a square of 5 units each way, in every direction. */
+#define LINE_FROM 7.2
 
 void plot_labels_avoid(plot_labels *l, plot_box box, double weight)
 {
@@ -54,8 +58,8 @@ static plot_label candidate(double x, double y, double width, double height, con
     c.anchor = direction[0] < -0.3 ? 1 : direction[0] > 0.3 ? -1 : 0;
     double left = at_x - width * (c.anchor + 1) / 2;
     c.box = (plot_box){left, at_y - height / 2, left + width, at_y + height / 2};
-    c.from_x = x + direction[0] * 5;
-    c.from_y = y + direction[1] * 5;
+    c.from_x = x + direction[0] * LINE_FROM;
+    c.from_y = y + direction[1] * LINE_FROM;
     c.to_x = at_x;
     c.to_y = c.anchor ? at_y : direction[1] > 0 ? c.box.top : c.box.bottom;
     return c;
@@ -67,14 +71,16 @@ static int is_inside(const plot_box *box, const plot_box *frame)
            box->bottom <= frame->bottom;
 }
 
-/* What is bad about it: the distance, and what it covers. The point's own mark covers the line's beginning. */
+/* What is bad about it: the distance, and what it and its line cover. */
 static double badness(const plot_labels *l, const plot_label *c, double distance)
 {
     double sum = distance;
     for (size_t i = 0; i < l->count; i++) {
         const plot_obstacle *o = &l->obstacles[i];
-        if (boxes_meet(&c->box, &o->box) || (c->joined && o->weight >= PLOT_HEAVY && segment_meets(c, &o->box)))
+        if (boxes_meet(&c->box, &o->box))
             sum += o->weight;
+        else if (c->joined && o->weight >= PLOT_HEAVY && segment_meets(c, &o->box))
+            sum += PLOT_CROSSED;
     }
     return sum;
 }
@@ -90,11 +96,11 @@ static void avoid_line(plot_labels *l, const plot_label *label)
     }
 }
 
-plot_label plot_labels_place(plot_labels *l, double x, double y, double width, double height, double farthest)
+plot_label plot_labels_place(plot_labels *l, double x, double y, double width, double height, double most)
 {
     plot_label best = {.found = 0};
-    double least = PLOT_HEAVY;
-    for (double distance = NEAREST; distance <= farthest; distance += STEP)
+    double least = most;
+    for (double distance = NEAREST; distance <= FARTHEST; distance += STEP)
         for (int i = 0; i < DIRECTIONS; i++) {
             plot_label c = candidate(x, y, width, height, directions[i], distance);
             if (!is_inside(&c.box, &l->frame))

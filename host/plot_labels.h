@@ -28,15 +28,18 @@ typedef struct plot_label {
     int found, joined;
 } plot_label;
 
-/* Weights of obstacles: a label is put on a light one where there is no free place, on none that is heavy. */
+/* What is bad about a place: 0.7 a unit of distance, 1 a direction (down and to the left is the first of 14), and the
+ * weights of what it covers; heavy is what is never covered, and costs less where only the line to the point crosses
+ * it. */
 #define PLOT_LIGHT 5.0
 #define PLOT_HEAVY 1000.0
+#define PLOT_CROSSED 100.0
 
 void plot_labels_avoid(plot_labels *l, plot_box box, double weight);
 
-/* The best place for a label of that size at the point (x, y), at most `farthest` away; it is an obstacle from then on,
- * and so is the line to it. Without a place found is 0. */
-plot_label plot_labels_place(plot_labels *l, double x, double y, double width, double height, double farthest);
+/* The best place for a label of that size at the point (x, y); it is an obstacle from then on, and so is the line to
+ * it. Where none is less bad than `most` (up to PLOT_HEAVY), found is 0. */
+plot_label plot_labels_place(plot_labels *l, double x, double y, double width, double height, double most);
 
 void plot_labels_free(plot_labels *l);
 
