@@ -106,6 +106,7 @@ struct gn_context {
     uint8_t point_light;                 /* 1: light and light_view are those of a face of one */
     uint32_t bias;                       /* in units of a 32-bit depth */
     uint8_t light_trusted;               /* gn_inside */
+    uint8_t keeps;                       /* gn_static_casters.c: 1: what it keeps is set up */
     uint8_t phase;                       /* gn_phase: whose turn it is to use the shared part */
     uint8_t *progress;                   /* gn_progress of each light region, written by whoever renders it */
     uint32_t tan_squared;                /* spot: of half the opening, 19 fraction bits */
@@ -143,6 +144,24 @@ struct gn_faces {
     void (*find_points)(const gn_context *context, struct gn_points *points, uint32_t *q);
 };
 
+/* Point lights: may a triangle of the objects [first, end) cover a texel of the face that has begun? */
+typedef int gn_covers(const gn_context *context, uint32_t first, uint32_t end);
+
+/* What settings.casters brings (gn_static_casters.c). */
+struct gn_casters {
+    /* of gn_make_plan, when the map is planned: set plan->static_bytes, check the settings */
+    gn_status (*plan)(gn_plan *plan, const gn_scene *scene, const gn_settings *settings);
+    /* gn_light_begin: in place of gn_transform_scene */
+    gn_status (*begin)(gn_context *context, int *inside);
+    /* gn_light_layers: in place of clearing; leaves static objects in the rows [row, end), and the others to be drawn
+     */
+    void (*start)(gn_context *context, struct gn_layer_target *t, uint32_t row, uint32_t end);
+    /* gn_nearest_row: the same with a single row, of one layer */
+    void (*start_row)(gn_context *context, struct gn_layer_target *t, uint32_t row);
+    /* point lights: may any object cover a texel of the face that has begun? */
+    int (*reach)(gn_context *context, gn_covers *covers);
+};
+
 /* World position of a vertex. GN_OUT_OF_RANGE beyond GN_WORLD_MAX. */
 gn_status gn_world_position(const gn_object *object, uint32_t vertex, int32_t world[3]);
 
@@ -163,7 +182,8 @@ void gn_cross(int64_t n[3], const int32_t a[3], const int32_t b[3]);
 int gn_dot_sign(const int64_t n[3], const int32_t v[3]);
 
 /* Where the vertices of a scene lie: all inside the screen; and with half a pixel and more than a point's error of
- * depth to spare, so that the four pixels about any of their points exist. */
+ * depth to spare, so that the four pixels about any of their points exist. Those of objects with a model are not known
+ * to: they may move before the next pass. */
 typedef enum gn_inside { GN_NOT_INSIDE, GN_INSIDE, GN_WELL_INSIDE } gn_inside;
 #define GN_SPARE 160              /* 1/256 pixel */
 #define GN_SPARE_DEPTH (1u << 17) /* of 2^31 */

@@ -27,13 +27,17 @@ typedef struct gn_layer_target {
     int steep;     /* too steep for plane: the other one */
     gn_wide_plane steep_plane;
     gn_insertion how;
-    const gn_grid *grid; /* of a warped map; 0: texels lie evenly */
-    int32_t row, end;    /* grid: rows of texels that may be written, [row, end) */
+    uint32_t object, object_end; /* what is drawn of the scene: [object, object_end) */
+    const gn_grid *grid;         /* of a warped map; 0: texels lie evenly */
+    int32_t row, end;            /* grid: rows of texels that may be written, [row, end) */
 #if GN_VECTOR_16
     gn_u32x16 lanes; /* the plane's step to each of 16 texels */
 #endif
     GN_TALLY(gn_tally *tally;)
 } gn_layer_target;
+
+/* gn_light_pass.c: the target's objects into the rows [row, end) of the map. */
+void gn_draw_rows(const gn_context *context, gn_layer_target *t, uint32_t row, uint32_t end);
 
 /* The depths are stepped in 32 bits and cut to the stored width: 16-bit layers are the upper half of 32-bit ones. */
 GN_INLINE uint32_t gn_start_depth(const gn_layer_target *t, int32_t row, int32_t left)

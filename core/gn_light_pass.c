@@ -401,15 +401,6 @@ gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker
 
 /* ---- the pass -------------------------------------------------------------------------------------------------- */
 
-/* Models may change before the camera pass, so their objects may leave the box. */
-static int has_models(const gn_scene *scene)
-{
-    for (uint32_t i = 0; i < scene->object_count; i++)
-        if (scene->objects[i].model)
-            return 1;
-    return 0;
-}
-
 gn_status gn_light_begin(gn_context *context, const gn_light *light)
 {
     if (!context || !light)
@@ -425,14 +416,15 @@ gn_status gn_light_begin(gn_context *context, const gn_light *light)
     gn_status status = context->fitting ? context->fitting->make_view(context)
                                         : gn_make_light_view(&context->light_view, light, context->settings.map_width,
                                                              context->settings.map_height);
+    const gn_casters *casters = context->settings.casters;
     int32_t largest_w;
     int inside;
     if (status == GN_OK)
-        status = gn_transform_scene(context, &context->light_view, &largest_w, &inside);
+        status = casters ? casters->begin(context, &inside)
+                         : gn_transform_scene(context, &context->light_view, &largest_w, &inside);
     if (status != GN_OK)
         return status;
-    int known = light->kind == GN_DIRECTIONAL && !has_models(context->scene);
-    context->light_trusted = (uint8_t)(known ? inside : GN_NOT_INSIDE);
+    context->light_trusted = (uint8_t)(light->kind == GN_DIRECTIONAL ? inside : GN_NOT_INSIDE);
     const gn_drawing *drawing = gn_find_drawing(&context->settings);
     if (drawing)
         status = drawing->begin(context);
@@ -452,15 +444,14 @@ static void clear(gn_depth *layer, size_t count)
         layer[i] = GN_FARTHEST;
 }
 
-/* All triangles into the rows [row, end) of the map. */
-static GN_NOINLINE void draw_rows(const gn_context *context, gn_layer_target *t, uint32_t row, uint32_t end)
+GN_NOINLINE void gn_draw_rows(const gn_context *context, gn_layer_target *t, uint32_t row, uint32_t end)
 {
     gn_window window = {0, (int32_t)row, context->settings.map_width, (int32_t)end};
     t->steep = 0;
     t->grid = context->grid;
     if (t->grid)
         t->grid->aim(t, &window);
-    for (uint32_t i = 0; i < context->scene->object_count; i++) {
+    for (uint32_t i = t->object; i < t->object_end; i++) {
         t->open = !context->scene->objects[i].mesh->closed;
         insert_mesh(context, t, i, &window);
     }
@@ -487,11 +478,18 @@ gn_status gn_light_layers(gn_context *context, uint32_t region, uint32_t worker)
     t.second = w->second;
     t.second_offset = (int32_t)(first_row * stride);
     t.stride = (int32_t)stride;
-    clear(context->map + (size_t)first_row * stride, (size_t)rows * stride);
-    if (t.second)
-        clear(t.second, (size_t)rows * stride);
+    t.object = 0;
+    t.object_end = context->scene->object_count;
     GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
-    draw_rows(context, &t, first_row, first_row + rows);
+    const gn_casters *casters = context->settings.casters;
+    if (casters) {
+        casters->start(context, &t, first_row, first_row + rows);
+    } else {
+        clear(context->map + (size_t)first_row * stride, (size_t)rows * stride);
+        if (t.second)
+            clear(t.second, (size_t)rows * stride);
+    }
+    gn_draw_rows(context, &t, first_row, first_row + rows);
     GN_TALLY(add_tally(w, &tally);)
     const gn_drawing *drawing = gn_find_drawing(&context->settings);
     if (drawing)
@@ -507,9 +505,14 @@ void gn_nearest_row(gn_context *context, uint32_t worker, int32_t row, gn_depth 
     t.second = 0;
     t.second_offset = 0;
     t.stride = 0; /* all rows are one */
+    t.object = 0;
+    t.object_end = context->scene->object_count;
     clear(depths, context->map_stride);
     GN_TALLY(gn_tally tally = {0}; t.tally = &tally;)
-    draw_rows(context, &t, (uint32_t)row, (uint32_t)row + 1);
+    const gn_casters *casters = context->settings.casters;
+    if (casters)
+        casters->start_row(context, &t, (uint32_t)row);
+    gn_draw_rows(context, &t, (uint32_t)row, (uint32_t)row + 1);
     (void)worker;
     GN_TALLY(add_tally(&context->workers[worker], &tally);)
 }

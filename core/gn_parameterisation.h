@@ -61,6 +61,8 @@ struct gn_polygon;
 typedef int gn_clamped_plane(gn_wide_plane *plane, struct gn_polygon *polygon, const gn_view *view,
                              const gn_place corner[3], int64_t *error);
 
+#define GN_SEEN_AND_KEPT 2 /* gn_static_casters.c: and layers on its warp are kept */
+
 struct gn_fitting {
     gn_rectangle rectangle;
     gn_grid grid;
@@ -69,7 +71,7 @@ struct gn_fitting {
     uint8_t *sums;                               /* view pass: of worker 0; the others' follow */
     uint64_t sums_bytes;                         /* of one worker */
     uint8_t round;                               /* view pass: which */
-    uint8_t seen;                                /* 1: a view pass has ended */
+    uint8_t seen;                                /* a view pass has ended: 1, or GN_SEEN_AND_KEPT */
     gn_status (*make_view)(gn_context *context); /* the light's, for the light pass */
     /* Fitted depth: the light's box along the light, world units; a depth of 0: its own. What the camera sees, units of
      * z of the light's own box; low > high: nothing. The plane of a triangle with a corner beyond (gn_fit_depth.c). */

@@ -208,7 +208,7 @@ static uint64_t lay_out_head(gn_context *context, const gn_scene *scene, const g
     const gn_parameterisation *parameterisation = gn_find_parameterisation(settings);
     if (parameterisation)
         used = parameterisation->lay_out_head(context, used, settings);
-    gn_depth *map = gn_take(base, &used, plan->map_bytes);
+    gn_depth *map = gn_take(base, &used, plan->map_bytes + plan->static_bytes);
     if (context) {
         context->objects = objects;
         context->workers = workers;
@@ -320,6 +320,10 @@ gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *
     p.map_bytes = map_stride(settings) * all_rows * sizeof(gn_depth);
     if (settings->shadow == GN_SHADOW_VOLUMES)
         p.map_bytes = p.light_regions = 0;
+    if (settings->casters)
+        status = settings->casters->plan(&p, scene, settings);
+    if (status != GN_OK)
+        return status;
     uint64_t head = lay_out_head(0, scene, settings, &p), light = head, camera = head;
     light += settings->shadow == GN_SHADOW_VOLUMES ? 0 : gn_lay_out_light(0, &p, settings);
     camera += gn_lay_out_camera(0, &p, settings);

@@ -86,10 +86,9 @@ static uint32_t sides_beyond(const gn_view *view, const gn_object *object, const
            (uint32_t)(w < view->near_w) << 4 | (uint32_t)(w > view->far_w) << 5;
 }
 
-/* May a triangle cover a texel of the latest face? */
-static int has_casters(const gn_context *context)
+static int covers(const gn_context *context, uint32_t first, uint32_t end)
 {
-    for (uint32_t o = 0; o < context->scene->object_count; o++) {
+    for (uint32_t o = first; o < end; o++) {
         const gn_object *object = &context->scene->objects[o];
         const gn_vertex *vertices = context->vertices + context->objects[o].first_vertex;
         for (uint32_t t = 0; t < object->mesh->triangle_count; t++) {
@@ -102,6 +101,13 @@ static int has_casters(const gn_context *context)
         }
     }
     return 0;
+}
+
+/* May a triangle cover a texel of the latest face? */
+static int has_casters(gn_context *context)
+{
+    const gn_casters *casters = context->settings.casters;
+    return casters ? casters->reach(context, covers) : covers(context, 0, context->scene->object_count);
 }
 
 /* ---- the light pass ---------------------------------------------------------------------------------------------- */

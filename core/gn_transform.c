@@ -114,10 +114,14 @@ gn_status gn_transform_scene(gn_context *context, const gn_view *view, int32_t *
         const gn_object *object = &context->scene->objects[i];
         gn_object_state *state = &context->objects[i];
         gn_vertex *vertex = context->vertices + state->first_vertex;
-        if (object->model && gn_check_model(object->model) != GN_OK)
-            return GN_OUT_OF_RANGE;
-        state->mirrored = (uint8_t)(object->model && mirrors(object->model));
+        state->mirrored = 0;
         state->clips = 0;
+        if (object->model) {
+            if (gn_check_model(object->model) != GN_OK)
+                return GN_OUT_OF_RANGE;
+            state->mirrored = (uint8_t)mirrors(object->model);
+            *inside = GN_NOT_INSIDE;
+        }
         for (uint32_t v = 0; v < object->mesh->vertex_count; v++, vertex++) {
             int32_t world[3];
             gn_place place;

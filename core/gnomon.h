@@ -295,6 +295,13 @@ typedef struct gn_faces gn_faces;
 extern const gn_faces gn_six_faces; /* six maps in memory, that stay for any number of camera passes */
 extern const gn_faces gn_one_face;  /* one at a time: gn_point_pass alone. A bit, with filters a byte a pixel more */
 
+/* Casters that stand still: the layers of the scene's first settings.static_objects objects are kept, and a light pass
+ * inserts the others into them. The maps are those without it, bit for bit. None (0): every light pass draws all.
+ * Linked only where named. The static objects are drawn anew when the light, one of their models or what the view pass
+ * finds has changed. Maps of silhouettes and crossings are drawn every time. Not with gn_one_face. docs/design.md. */
+typedef struct gn_casters gn_casters;
+extern const gn_casters gn_static_casters; /* one more map in memory, of two layers two: plan.static_bytes */
+
 typedef enum gn_bias_unit {
     GN_BIAS_WORLD = 0, /* whole world units along the light (spot: converted at w = sqrt(near far)) */
     GN_BIAS_TEXELS,    /* Q16.16: the depth of so many texels at 45 degrees */
@@ -330,10 +337,12 @@ typedef struct gn_settings {
     const gn_fit *fit;                       /* 0: the light's own box or frustum. The same */
     const gn_warp *warp;                     /* 0: texels of one size. The same */
     gn_q16_16 smoothing;                     /* of warps: times the usual window; 1/64 to 64, 0: 1 */
-    uint8_t fit_depth;     /* 1: with a fit of directional lights, stored depths span what the camera sees; what is
-                            * nearer to the light is taken to be at the near end. More depth resolution. Says nothing
-                            * without a fit or with a spot light, whose depths are good where they are near */
-    const gn_faces *faces; /* for point lights, else 0. Says nothing with volumes */
+    uint8_t fit_depth;         /* 1: with a fit of directional lights, stored depths span what the camera sees; what is
+                                * nearer to the light is taken to be at the near end. More depth resolution. Says nothing
+                                * without a fit or with a spot light, whose depths are good where they are near */
+    const gn_faces *faces;     /* for point lights, else 0. Says nothing with volumes */
+    const gn_casters *casters; /* 0: all may move. Says nothing with volumes */
+    uint32_t static_objects;   /* of gn_static_casters: so many objects from the first on stand still, mostly */
 } gn_settings;
 
 /* Second depth, the point, the nearest texel, everything else left to gn_make_plan and no bias: the least that a scene
@@ -348,6 +357,7 @@ typedef struct gn_plan {
     size_t camera_bytes;          /* needed during the camera pass, map included */
     size_t view_bytes;            /* needed during the view pass, which has no map; 0 without one */
     size_t warp_bytes;            /* of the block: where the texels lie, which stays between the passes; 0 without */
+    size_t static_bytes;          /* of the block: what gn_static_casters keeps; 0 without */
     uint32_t triangles, vertices; /* of all objects; a mesh used twice counts twice */
     uint32_t edges;               /* the same; 0 where meshes have none */
     uint32_t light_regions, camera_regions;
@@ -361,9 +371,10 @@ typedef struct gn_plan {
 typedef struct gn_context gn_context;
 
 /* Say what the scene needs, and check every mesh (indices, ranges); nothing is written but *plan. GN_UNSUPPORTED:
- * settings that make no sense together, volumes and a mesh without edges, or a receiver or
- * a reconstruction and a map that is less than 2 texels wide or high. GN_BAD_MESH: also, with silhouettes or
- * crossings, edges that do not exist, join nothing, or are too few or too many. */
+ * settings that make no sense together, volumes and a mesh without edges, a receiver or
+ * a reconstruction and a map that is less than 2 texels wide or high, or static casters and gn_one_face.
+ * GN_OUT_OF_RANGE: also, more static objects than there are. GN_BAD_MESH: also, with silhouettes or crossings, edges
+ * that do not exist, join nothing, or are too few or too many. */
 gn_status gn_make_plan(gn_plan *plan, const gn_scene *scene, const gn_settings *settings);
 
 /* Take the block; the scene (not the settings) must outlive the context. Nothing outside the block is ever written.

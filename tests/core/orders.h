@@ -36,7 +36,7 @@ static void *run_regions(void *argument)
     return 0;
 }
 
-static gn_status light_pass_on_threads(gn_context *context, const gn_light *light, uint32_t workers)
+static TAP_UNUSED gn_status light_pass_on_threads(gn_context *context, const gn_light *light, uint32_t workers)
 {
     pthread_t thread[8];
     job jobs[8];
@@ -57,7 +57,7 @@ static gn_status light_pass_on_threads(gn_context *context, const gn_light *ligh
 }
 
 /* Permute triangles and objects, turn triangles' corners. */
-static void shuffle(random_scene *r)
+static TAP_UNUSED void shuffle(random_scene *r)
 {
     for (uint32_t o = 0; o < r->scene.object_count; o++) {
         shape *s = &r->shapes[o];
