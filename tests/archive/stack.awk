@@ -39,7 +39,7 @@ BEGIN {
     may_call("/gn_receiver_plane.c:make_plane|^gn_find_plane$", "/gn_fit_depth.c:make_clamped_plane")
     may_call("^gn_find_points$", "^gn_find_(place_on_plane|face_points)$|/gn_point_pass.c:find_points$")
     # gn_grid (core/gn_grid.h), and what is done with triangles beyond the planes
-    may_call("/gn_light_pass.c:|^gn_(light_layers|nearest_row)$|/gn_fit_depth.c:insert$",
+    may_call("/gn_light_pass.c:|^gn_(light_layers|nearest_row|draw_rows)$|/gn_fit_depth.c:insert$",
              "/gn_(grid|nonorthogonal).c:(walk|aim)$|/gn_warped_vertices.c:(walk_|aim)")
     may_call("/gn_light_pass.c:insert_clipped", "/gn_fit_depth.c:insert$")
     may_call("/gn_warped_vertices.c:walk", "/gn_warped_vertices.c:move_")
@@ -51,6 +51,13 @@ BEGIN {
     # gn_faces (core/gn_point_light.h)
     may_call("^gn_(make_plan|init)$|/gn_plan.c:lay_out_head", "/gn_point_(light|pass).c:lay_out")
     may_call("^gn_camera_begin$", "/gn_point_(light|pass).c:(begin|refuse)_camera")
+    # gn_casters (core/gn_context.h)
+    may_call("^gn_make_plan$", "/gn_static_casters.c:make_plan$")
+    may_call("^gn_light_begin$", "/gn_static_casters.c:begin$")
+    may_call("^gn_light_layers$", "/gn_static_casters.c:start$")
+    may_call("^gn_nearest_row$", "/gn_static_casters.c:start_row$")
+    may_call("/gn_point_light.c:has_casters|^gn_begin_face$", "/gn_static_casters.c:reach$")
+    may_call("/gn_static_casters.c:reach$", "/gn_point_light.c:covers$")
 }
 
 # A pointer in functions whose names match the first pattern may mean any that matches the second.
