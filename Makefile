@@ -27,7 +27,7 @@ CORE := $(wildcard core/*.c)
 FAST := -O2 -fno-tree-pre
 # No inner loops: compiled for size where flash counts; what these switches do for speed costs flash and gains nothing there.
 SMALL := -Os -fno-schedule-insns2 -fno-move-loop-invariants -fno-code-hoisting
-SETUP_SOURCES := $(patsubst %,core/gn_%.c,bias bins camera_pass clip fraction lambert matrix plan region scaled shading silhouette \
+SETUP_SOURCES := $(patsubst %,core/gn_%.c,bias bins camera_pass clip fraction lambert matrix plan region scaled shading silhouette static_casters \
 	transform trigonometry view volumes_spot wide)
 HOST := $(wildcard host/*.c)
 EMBEDDED_TARGETS :=
@@ -222,7 +222,7 @@ $(BUILD)/$(2)/%.elf: $(BUILD)/objects/$(2)/port/%.o $(call objects,$(2),$(PROGRA
 	$(quiet)$($(1)_TOOL)gcc $($(1)_FLAGS) $$($(1)_LINK) $$(filter %.o,$$^) $$(filter %.a,$$^) -lgcc -o $$@
 $(BUILD)/objects/$(2)/port/firmware.o $(BUILD)/objects/$(2)/port/bench/bench.o: $(GOLDEN_HEADERS)
 $(BUILD)/$(2)/firmware.elf: $(BUILD)/objects/$(2)/port/methods.o
-$(BUILD)/$(2)/bench/bench.elf: $(BUILD)/objects/$(2)/port/bench/edges.o $(BUILD)/objects/$(2)/port/bench/warps.o
+$(BUILD)/$(2)/bench/bench.elf: $(patsubst %,$(BUILD)/objects/$(2)/port/bench/%.o,casters edges warps)
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN) -kernel)
 $(BUILD)/$(2)/minimal_main.txt: $(BUILD)/$(2)/minimal_main.elf

@@ -98,14 +98,13 @@ static int same_row(const gn_row *a, const gn_row *b)
            a->shift == b->shift;
 }
 
+/* Of lights, on one map: all else follows from these and the map's size. */
 static int same_view(const gn_view *a, const gn_view *b)
 {
-    return same_row(&a->row[0], &b->row[0]) && same_row(&a->row[1], &b->row[1]) && same_row(&a->row[2], &b->row[2]) &&
-           a->centre_x == b->centre_x && a->centre_y == b->centre_y && a->affine == b->affine &&
-           a->post_projective_depth == b->post_projective_depth && a->endless == b->endless &&
-           a->half_width == b->half_width && a->half_height == b->half_height && a->near_w == b->near_w &&
-           a->far_w == b->far_w && a->guard == b->guard && a->unit.m == b->unit.m && a->unit.e == b->unit.e &&
-           a->depth_scale == b->depth_scale && a->depth_shift == b->depth_shift;
+    int same = a->affine == b->affine && a->endless == b->endless && a->near_w == b->near_w && a->far_w == b->far_w;
+    for (int i = 0; i < 3; i++)
+        same &= same_row(&a->row[i], &b->row[i]);
+    return same;
 }
 
 static int same_model(const gn_model *a, const gn_model *b)
@@ -247,10 +246,18 @@ static gn_status begin(gn_context *context, int *inside)
     return status;
 }
 
+/* Depths that are copied at once: in words, where a machine can, though they are aligned as depths are. */
+enum { BLOCK = 16 };
+typedef struct block {
+    gn_depth depths[BLOCK];
+} block;
+
 static void copy(gn_depth *to, const gn_depth *from, size_t count)
 {
-    for (size_t i = 0; i < count; i++)
-        to[i] = from[i];
+    for (; count >= BLOCK; count -= BLOCK, to += BLOCK, from += BLOCK)
+        *(block *)to = *(const block *)from;
+    for (; count; count--)
+        *to++ = *from++;
 }
 
 static void clear(gn_depth *layer, size_t count)

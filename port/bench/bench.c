@@ -489,5 +489,6 @@ int main(void)
     measure_volumes();
     measure_warped_fills();
     measure_warps();
+    measure_casters();
     return 0;
 }

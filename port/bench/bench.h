@@ -90,4 +90,8 @@ void measure_volumes(void);
 
 void measure_warps(void);
 
+/* ---- casters.c ---- */
+
+void measure_casters(void);
+
 #endif

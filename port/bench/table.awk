@@ -145,6 +145,7 @@ function figure(t, kind, a, b) {
     if (kind == "view") return mean_view(t, a) / 1000
     if (kind == "of-uniform") return 100 * frames(t, a, b) / frames(t, "uniform", b)
     if (kind == "of-silhouettes") return 100 * frames(t, a, b, "silhouettes-") / frames(t, "uniform", b, "silhouettes-")
+    if (kind == "pass") return count(t, a) / 1000
     if (kind == "mean") return mean_frame(t, a)
     if (kind == "plane") return plane(t, a)
     if (kind == "open") return open_pixel(t, a, b)
@@ -321,6 +322,14 @@ END {
         row("frame", "", "of-uniform", warp_row[warp], "frame")
     }
     row("silhouettes, msf-rectilinear: frame", "", "of-silhouettes", "msf-rectilinear", "frame")
+    print "Static casters: light pass of pins, spot light; the lane and 11 pins stand, a ball rolls; thousands"
+    for (map = 128; map <= 256; map *= 2) {
+        for (surface = 1; surface <= split("second mixed", surfaces, " "); surface++) {
+            row(surfaces[surface] " depth, map " map ": all objects", "", "pass", "ball-" surfaces[surface] "-all-" map)
+            row("static objects drawn and kept, the ball inserted", "", "pass", "ball-" surfaces[surface] "-anew-" map)
+            row("the ball inserted", "", "pass", "ball-" surfaces[surface] "-kept-" map)
+        }
+    }
     print "Limits are for " targets[1] ". Map: 320 x 320; pixels: screen-filling quad, half in shadow or all of one kind,"
     print "320 x 240 less 160 x 120."
     exit failed
