@@ -182,6 +182,8 @@ demo-pictures: $(BUILD)/gnomon $(OIIO_BRIDGE)
 PROGRAM := port/print.c
 GOLDEN_SCENES := lshape torus2 table pipes pins fence
 GOLDEN_HEADERS := $(GOLDEN_SCENES:%=$(BUILD)/golden/%.h)
+CALIBRATION_SCENES := $(GOLDEN_SCENES) castle colonnade crowd factory room sheets
+CALIBRATION_HEADERS := $(CALIBRATION_SCENES:%=$(BUILD)/golden/%.h)
 # The simulator's own build and the two that look for mistakes take part as well.
 TARGETS := $(EMBEDDED_TARGETS) $(HOSTED_TARGETS) host checked sanitized
 TARGET_DEPTHS := $(foreach d,$(DEPTHS),$(addsuffix -$(d),$(TARGETS)))
@@ -223,6 +225,9 @@ $(BUILD)/$(2)/%.elf: $(BUILD)/objects/$(2)/port/%.o $(call objects,$(2),$(PROGRA
 $(BUILD)/objects/$(2)/port/firmware.o $(BUILD)/objects/$(2)/port/bench/bench.o: $(GOLDEN_HEADERS)
 $(BUILD)/$(2)/firmware.elf: $(BUILD)/objects/$(2)/port/methods.o
 $(BUILD)/$(2)/bench/bench.elf: $(patsubst %,$(BUILD)/objects/$(2)/port/bench/%.o,casters edges warps)
+$(BUILD)/objects/$(2)/port/report/report.o: $(GOLDEN_HEADERS)
+$(BUILD)/objects/$(2)/port/report/calibrate.o: $(CALIBRATION_HEADERS)
+$(BUILD)/$(2)/report/report.elf $(BUILD)/$(2)/report/calibrate.elf: $(BUILD)/objects/$(2)/port/report/chains.o
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN) -kernel)
 $(BUILD)/$(2)/minimal_main.txt: $(BUILD)/$(2)/minimal_main.elf
@@ -238,6 +243,9 @@ $(BUILD)/$(2)/%.elf: $(call objects,$(2),port/%.c $(PROGRAM) port/linux/console.
 	$(quiet)$(or $($(1)_CC),$(CC)) $($(1)_FLAGS) $$^ $($(1)_LINK) -o $$@
 $(BUILD)/$(2)/firmware.elf: $(BUILD)/objects/$(2)/port/methods.o
 $(BUILD)/objects/$(2)/port/firmware.o: $(GOLDEN_HEADERS)
+$(BUILD)/$(2)/report/report.elf $(BUILD)/$(2)/report/calibrate.elf: $(BUILD)/objects/$(2)/port/report/chains.o
+$(BUILD)/objects/$(2)/port/report/report.o: $(GOLDEN_HEADERS)
+$(BUILD)/objects/$(2)/port/report/calibrate.o: $(CALIBRATION_HEADERS)
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN))
 $(BUILD)/$(2)/minimal_main.txt: $(BUILD)/$(2)/minimal_main.elf
@@ -271,11 +279,13 @@ $(BUILD)/bench/count_plugin.so: port/bench/count_plugin.c
 	@mkdir -p $(@D)
 	$(quiet)$(CC) -std=gnu11 -O2 $(WARNINGS) -fPIC -shared -DPLUGIN_API=$$(($(QEMU_MAJOR) >= 9 ? 2 : 1)) $< -o $@
 
-# $(call count,PLUGIN OPTIONS): what the program printed, then what the plugin counted.
+# $(call count,PLUGIN OPTIONS): what the program printed, then what the plugin counted. A clock that follows the
+# instructions would only take time: nothing reads it between the marks.
 define count
 	$(call say,count)
+	@mkdir -p $(@D)
 	$(quiet)address() { echo 0x$$($($*_TOOL)nm $< | awk -v name=$$1 '$$3 == name { print $$1 }'); }; \
-	$($*_RUN) -kernel $< \
+	$(filter-out -icount shift=%,$($*_RUN)) -kernel $< \
 		-plugin $(BUILD)/bench/count_plugin.so,begin=$$(address mark_begin),end=$$(address mark_end)$(1) \
 		</dev/null >$@ 2>$@.regions || { echo "error exit status $$?"; tail -n 2 $@ $@.regions; }
 	@cat $@.regions >>$@
@@ -292,6 +302,27 @@ bench-targets: $(BENCH_COUNTS) ## count instructions on Cortex-M4, Cortex-M0 and
 profile: $(BENCH_TARGETS:%=$(BUILD)/bench/%.profile) ## say what each function took of each case of bench-targets
 	@awk 'FNR == 1 { n = 0 } $$1 == "case" { name[n++] = $$2 } $$1 == "region" { print FILENAME, name[$$2], $$4 } \
 		$$1 == "function" && $$2 > 100 { printf "%12d %s\n", $$2, $$3 }' $^
+
+# The frames of docs/report, and those that the cost model is fitted to: their instructions, and what the core counts of them.
+REPORT_TARGETS := cortex-m4 cortex-m0 rv32imc rv32i
+$(BUILD)/report/%.count: $(BUILD)/%-16/report/report.elf $(BUILD)/bench/count_plugin.so
+	$(call count)
+$(BUILD)/calibrate/%.count: $(BUILD)/%-16/report/calibrate.elf $(BUILD)/bench/count_plugin.so
+	$(call count)
+
+# Programs of tests/report that link the simulator with all its lanes.
+$(BUILD)/report/%: $(BUILD)/objects/host-16/tests/report/%.o \
+		$(call objects,host-16,$(filter-out host/main.c,$(HOST)) $(CORE)) $(call lanes,host-16)
+	$(call say,link)
+	@mkdir -p $(@D)
+	$(quiet)$(CC) $(host_FLAGS) -pthread $^ -lm -ldl -o $@
+
+COST_COUNTS := $(BUILD)/calibrate/cortex-m4.count
+COST_GROUPS := castle,colonnade crowd,factory fence,lshape pins,pipes room,sheets table,torus2
+cost-model: $(BUILD)/report/cost_fit $(COST_COUNTS) ## fit host/cost_model_table.c anew, and say how well it predicts
+	$(quiet)$< $(COST_COUNTS) $(CALIBRATION_SCENES:%=$(BUILD)/golden/%.scene) >$(BUILD)/cost_model_table.c
+	$(quiet)mv $(BUILD)/cost_model_table.c host/cost_model_table.c
+	$(quiet)$< $(COST_COUNTS) $(CALIBRATION_SCENES:%=$(BUILD)/golden/%.scene) --validate $(COST_GROUPS)
 
 # One job by a map, by shadow volumes, and with each way to test a pixel.
 FOOTPRINTS := $(basename $(notdir $(wildcard port/footprint/*.c)))
@@ -370,4 +401,4 @@ clean: ## remove everything made
 
 always:
 
-.PHONY: all demo demo-pictures hashes accept-hashes bench-targets profile sizes test test-inputs run-tests help clean always
+.PHONY: all demo demo-pictures hashes accept-hashes bench-targets profile cost-model sizes test test-inputs run-tests help clean always

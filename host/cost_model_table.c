@@ -1,0 +1,187 @@
+/* Written by tests/report/cost_fit.c (`make cost-model`): instructions of a
+ * Cortex-M4 for one of each. */
+#include "cost_model.h"
+
+static const cost_coefficient view[] = {
+    {"vertices", 785.58},
+    {"triangles", 72.392},
+    {"triangles set up", 320.43},
+    {"rows of triangles", 191.49},
+    {"fragments", 3.4763},
+    {"pixels", 89.188},
+    {"pixels, spot light", 84.085},
+    {"samples, minimal frustum", 7.1887},
+    {"samples, rectilinear", 9.697},
+    {"samples, by distance", 9.9505},
+    {"samples, non-orthogonal", 96.643},
+    {"the minimal frustum's hull", 2.3996e+05},
+    {"columns and rows, rectilinear", 390.54},
+    {"texels, non-orthogonal", 72.35},
+};
+
+static const cost_coefficient view_by_operations[] = {
+    {"multiplies", 2.391},
+    {"divides", 5.4113},
+    {"adds", 0.33781},
+    {"loads", 1.4959},
+    {"stores", 2.8585},
+    {"others", 1.3385},
+    {"fragments", -4.9052},
+    {"pixels", -53.619},
+    {"triangles set up", -44.157},
+    {"rows of triangles", 23.117},
+};
+
+static const cost_coefficient light[] = {
+    {"vertices", 240.81},
+    {"vertices, spot light", 19.112},
+    {"vertices, a fit or a warp", 16.633},
+    {"triangles", 72.124},
+    {"triangles set up", 310.09},
+    {"triangles set up, two layers", 56.59},
+    {"triangles set up, slope", 87.913},
+    {"triangles set up, rectilinear", 0},
+    {"triangles set up, non-orthogonal", 194.52},
+    {"rows of triangles", 54.7},
+    {"rows of triangles, rectilinear", 311.91},
+    {"rows of triangles, non-orthogonal", 538.27},
+    {"texels of triangles, one layer", 8.2775},
+    {"texels of triangles, two layers", 18.361},
+    {"texels of triangles, slope", 18.739},
+    {"texels of triangles, non-orthogonal", 113.75},
+    {"the map, one layer", 11.982},
+    {"the map, back faces", 2.5366},
+    {"the map, two layers", 15.363},
+    {"the map, slope", 23.583},
+    {"silhouettes or crossings: triangles", 414.99},
+    {"silhouettes: the map", 0},
+    {"silhouettes: edges", 748.59},
+    {"silhouettes: cells", 931.38},
+    {"crossings: the map", 0},
+    {"crossings: edges", 325.79},
+    {"crossings: texels", 696.59},
+};
+
+static const cost_coefficient light_by_operations[] = {
+    {"multiplies", 0},
+    {"divides", 2.5161},
+    {"adds", 0.64317},
+    {"loads", 2.2939},
+    {"stores", 0},
+    {"others", 1.1992},
+    {"texels of triangles, one layer", -2.4265},
+    {"texels of triangles, two layers", -2.5729},
+    {"texels of triangles, slope", -0.38146},
+    {"texels of triangles, non-orthogonal", -2.0212},
+    {"the map, one layer", -1.4932},
+    {"the map, back faces", 1.1707},
+    {"the map, two layers", -1.8067},
+    {"the map, slope", 3.3113},
+    {"the map, silhouettes", -0.82258},
+    {"the map, crossings", -0.78943},
+    {"triangles", -0.032441},
+    {"triangles set up", 6.1192},
+    {"triangles set up, rectilinear", 10.698},
+    {"rows of triangles", 7.6944},
+    {"rows of triangles, rectilinear", -15.306},
+    {"edges, silhouettes or crossings", 17.657},
+};
+
+static const cost_coefficient camera[] = {
+    {"vertices", 902.8},
+    {"triangles", 0},
+    {"triangles set up", 253.47},
+    {"rows of triangles", 272.75},
+    {"fragments", 0},
+    {"pixels", 0},
+    {"pixels shaded", 0},
+    {"pixels shaded, spot light", 142.09},
+    {"colours", 249.61},
+    {"pixels tested", 60.91},
+    {"pixels tested, even, spot light", 0},
+    {"pixels, even, receiver", 29.129},
+    {"pixels, even, receiver, spot light", 29.862},
+    {"pixels, fitted", 50.25},
+    {"pixels, fitted, spot light", 91.493},
+    {"pixels, rectilinear", 154.09},
+    {"pixels, rectilinear, spot light", 173.39},
+    {"pixels, non-orthogonal", 241.44},
+    {"pixels, non-orthogonal, spot light", 257.26},
+    {"planes, plane bias", 456.42},
+    {"pixels, plane bias", 37.064},
+    {"planes, virtual samples", 312.36},
+    {"pixels with virtual samples", 158.01},
+    {"pixels with virtual samples, warps", 52.599},
+    {"virtual samples of filters", 45.935},
+    {"pixels, bilinear", 93.492},
+    {"pixels, jitter", 826.8},
+    {"texels, boxes", 16.181},
+    {"pixels, smooth silhouettes", 96.281},
+    {"pixels decided by silhouettes", 43.783},
+};
+
+static const cost_coefficient camera_by_operations[] = {
+    {"multiplies", 4.3143},
+    {"divides", 7.1744},
+    {"adds", 2.0131},
+    {"loads", 0},
+    {"stores", 0},
+    {"others", 1.324},
+    {"fragments", -0.77283},
+    {"pixels", -37.472},
+    {"triangles", 64.459},
+    {"triangles set up", -66.899},
+    {"pixels shaded", 9.7168},
+    {"pixels shaded, spot light", -43.313},
+    {"pixels, receiver, spot light", 10.414},
+    {"pixels, bilinear", 25.361},
+    {"pixels, jitter", -92.718},
+    {"texels, boxes", 3.3861},
+    {"pixels, smooth silhouettes", -0.59914},
+    {"pixels with virtual samples", 31.524},
+    {"pixels with virtual samples, spot light", 45.125},
+    {"pixels decided by silhouettes", -15.14},
+};
+
+static const cost_coefficient volumes_light[] = {
+    {"triangles", 679.77},
+    {"triangles, spot light", 161.5},
+    {"edges", 0},
+};
+
+static const cost_coefficient volumes_light_by_operations[] = {
+    {"multiplies", 12.39}, {"divides", 67.5},  {"adds", 0.052311},
+    {"loads", 0.68734},    {"stores", 6.7394}, {"others", 0.090973},
+};
+
+static const cost_coefficient volumes_camera[] = {
+    {"vertices", 0},
+    {"triangles", 0},
+    {"triangles set up", 0},
+    {"rows of triangles", 0},
+    {"fragments", 0},
+    {"pixels", 0},
+    {"pixels shaded", 0},
+    {"pixels shaded, spot light", 175.36},
+    {"colours", 0},
+    {"silhouettes", 6849.3},
+    {"faces of volumes", 1199.7},
+    {"rows of volumes", 915.49},
+    {"fragments of volumes", 0},
+};
+
+static const cost_coefficient volumes_camera_by_operations[] = {
+    {"multiplies", 0},
+    {"divides", 10.565},
+    {"adds", 0.36761},
+    {"loads", 0},
+    {"stores", 3.9534},
+    {"others", 2.2862},
+    {"fragments of volumes", -13.445},
+};
+
+const cost_coefficient *const cost_model_table[2][COST_JOBS] = {
+    {view, light, camera, volumes_light, volumes_camera},
+    {view_by_operations, light_by_operations, camera_by_operations,
+     volumes_light_by_operations, volumes_camera_by_operations},
+};
