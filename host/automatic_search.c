@@ -195,10 +195,11 @@ static void vary_placement(search *s, uint64_t bytes)
         try_at(s, c, shape_of(&best), bytes);
 }
 
+/* All of them: errors over the shape have more than one valley. */
 static void vary_shape(search *s, uint64_t bytes)
 {
     automatic_candidate best = least_error(s, bytes)->candidate;
-    for (int shape = shape_of(&best) - 2; shape <= shape_of(&best) + 2; shape++)
+    for (int shape = 0; shape < AUTOMATIC_SHAPES; shape++)
         try_at(s, best, shape, bytes);
 }
 
