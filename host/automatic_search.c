@@ -173,6 +173,27 @@ static void try_prospects(search *s, uint64_t bytes, int most)
         try_at(s, list[i].candidate, AUTOMATIC_SQUARE, bytes);
 }
 
+/* Candidates of the results within these bytes that come first by the order of `budget`, each kind once. */
+static int list_leaders(const search *s, const automatic_budget *budget, automatic_candidate leaders[LEADERS])
+{
+    int count = 0;
+    for (; count < LEADERS; count++) {
+        const automatic_result *best = 0;
+        for (size_t i = 0; i < s->t->count; i++) {
+            const automatic_result *r = &s->t->results[i];
+            int is_new = keeps(budget, r);
+            for (int k = 0; k < count; k++)
+                is_new = is_new && is_other(&r->candidate, &leaders[k]);
+            if (is_new && (!best || automatic_compare(budget, r, best) < 0))
+                best = r;
+        }
+        if (!best)
+            return count;
+        leaders[count] = best->candidate;
+    }
+    return count;
+}
+
 /* Change one choice of the best at a time. */
 static void vary_surface(search *s, uint64_t bytes)
 {
@@ -195,18 +216,30 @@ static void vary_placement(search *s, uint64_t bytes)
         try_at(s, c, shape_of(&best), bytes);
 }
 
-/* All of them: errors over the shape have more than one valley. */
 static void vary_shape(search *s, uint64_t bytes)
 {
     automatic_candidate best = least_error(s, bytes)->candidate;
-    for (int shape = 0; shape < AUTOMATIC_SHAPES; shape++)
+    for (int shape = shape_of(&best) - 2; shape <= shape_of(&best) + 2; shape++)
         try_at(s, best, shape, bytes);
+}
+
+/* All shapes of the two best: errors over the shape have more than one valley, and it changes them most. */
+static void try_shapes(search *s, uint64_t bytes)
+{
+    enum { STARTS = 2 };
+    const automatic_budget within = {bytes, -1};
+    automatic_candidate leaders[LEADERS];
+    int count = list_leaders(s, &within, leaders);
+    for (int i = 0; i < count && i < STARTS; i++)
+        for (int shape = 0; shape < AUTOMATIC_SHAPES; shape++)
+            try_at(s, leaders[i], shape, bytes);
 }
 
 static void search_bytes(search *s, uint64_t bytes, int most_first)
 {
     uint64_t before = UINT64_MAX;
     try_prospects(s, bytes, most_first);
+    try_shapes(s, bytes);
     for (int round = 0; round < MOST_ROUNDS && !s->failed && least_error(s, bytes)->wrong < before; round++) {
         before = least_error(s, bytes)->wrong;
         if (!before)
@@ -267,27 +300,6 @@ static uint64_t shrink(search *s, uint64_t low, uint64_t high, const automatic_c
             low = middle;
     }
     return high;
-}
-
-/* Candidates of the results within these bytes that come first by the order of `budget`, each kind once. */
-static int list_leaders(const search *s, const automatic_budget *budget, automatic_candidate leaders[LEADERS])
-{
-    int count = 0;
-    for (; count < LEADERS; count++) {
-        const automatic_result *best = 0;
-        for (size_t i = 0; i < s->t->count; i++) {
-            const automatic_result *r = &s->t->results[i];
-            int is_new = keeps(budget, r);
-            for (int k = 0; k < count; k++)
-                is_new = is_new && is_other(&r->candidate, &leaders[k]);
-            if (is_new && (!best || automatic_compare(budget, r, best) < 0))
-                best = r;
-        }
-        if (!best)
-            return count;
-        leaders[count] = best->candidate;
-    }
-    return count;
 }
 
 /* Where the tables expect the error: the least of all pairs. */
