@@ -316,7 +316,8 @@ static uint64_t expected_bytes(const search *s)
 /* From sizes on either side of the error; then the best near the size that is found may be others. */
 static void search_error(search *s)
 {
-    enum { STEP = 4 };
+    enum { STEP = 4, LESSER = 3 };
+    static const double lesser[LESSER] = {0.97, 0.9, 0.8};
     uint64_t least = automatic_least_bytes(s->t->packed, &s->t->base), high = expected_bytes(s), low = high;
     look_around(s, high);
     for (; !s->failed && !meets(s, high) && high < MOST_BYTES; look_around(s, high)) {
@@ -332,10 +333,13 @@ static void search_error(search *s)
         const automatic_budget within = {high, -1};
         automatic_candidate leaders[LEADERS];
         high = shrink(s, low, high, leaders, list_leaders(s, &within, leaders));
-        uint64_t less = (uint64_t)((double)high / FINENESS);
-        search_bytes(s, less, MOST_FIRST);
-        is_less = meets(s, less);
-        high = is_less ? less : high;
+        is_less = 0;
+        for (int i = 0; i < LESSER && !is_less && !s->failed; i++) {
+            uint64_t less = (uint64_t)((double)high * lesser[i]);
+            search_bytes(s, less, MOST_FIRST);
+            is_less = meets(s, less);
+            high = is_less ? less : high;
+        }
     }
 }
 
