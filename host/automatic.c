@@ -115,13 +115,22 @@ static void say(const automatic_choice *choice, const automatic_scene *scene, co
 /* ---- the choice ------------------------------------------------------------------------------------------------ */
 
 static int choose_by_trial(automatic_choice *choice, const packed_scene *packed, const automatic_scene *scene,
-                           const gn_settings *base, const automatic_budget *budget, problem *why)
+                           const gn_settings *base, int workers, const automatic_budget *budget, problem *why)
 {
     automatic_trial trial;
-    int result =
-        automatic_trial_open(&trial, packed, scene, base, why) || automatic_search(choice, &trial, budget, why);
+    int result = automatic_trial_open(&trial, packed, scene, base, workers, why) ||
+                 automatic_search(choice, &trial, budget, why);
     automatic_trial_close(&trial);
     return result ? -1 : 0;
+}
+
+/* How the work is cut shall not change the choice, and costs hang on it. */
+static void use_usual_work(gn_settings *settings)
+{
+    settings->workers = 1;
+    settings->region_width = 0;
+    settings->region_height = 0;
+    settings->map_rows = 0;
 }
 
 int automatic_options_read(gn_settings *settings, packed_scene *packed, const char *const values[], problem *why)
@@ -130,14 +139,16 @@ int automatic_options_read(gn_settings *settings, packed_scene *packed, const ch
     automatic_budget budget;
     automatic_scene scene;
     automatic_choice choice;
+    gn_settings base = *settings;
+    use_usual_work(&base);
     if (!values[RENDER_BUDGET_BYTES] && !values[RENDER_BUDGET_ERROR])
         return values[RENDER_NO_TRIAL]
                    ? problem_of_usage(why, "--no-trial, but nothing is to be chosen; expected a budget")
                    : 0;
     if (refuse_others(packed, values, first, why) || read_budget(&budget, values, why) ||
-        packed_make_edges(packed, 0, why) || automatic_scene_make(&scene, packed, settings, why) ||
-        (values[RENDER_NO_TRIAL] ? automatic_guess(&choice, &scene, packed, settings, &budget, why)
-                                 : choose_by_trial(&choice, packed, &scene, settings, &budget, why)))
+        packed_make_edges(packed, 0, why) || automatic_scene_make(&scene, packed, &base, why) ||
+        (values[RENDER_NO_TRIAL] ? automatic_guess(&choice, &scene, packed, &base, &budget, why)
+                                 : choose_by_trial(&choice, packed, &scene, &base, settings->workers, &budget, why)))
         return -1;
     say(&choice, &scene, &budget);
     *settings = automatic_settings(&choice.taken.candidate, settings);

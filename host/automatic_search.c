@@ -392,21 +392,19 @@ uint64_t automatic_least_bytes(const packed_scene *packed, const gn_settings *ba
     return automatic_bytes(&least, packed, base);
 }
 
-/* Exact, and without a map: where nothing else keeps the budgets, or no map of use fits. */
-static void try_volumes(search *s)
+static const automatic_candidate volumes = {0, 0, 0, 0, 0};
+
+/* Shadow volumes are exact, and have no map: for where no map keeps the budgets, or none of use fits. */
+static int are_volumes_due(const automatic_choice *so_far, const automatic_scene *scene, const packed_scene *packed,
+                           const gn_settings *base, const automatic_budget *budget)
 {
-    const automatic_candidate volumes = {0, 0, 0, 0, 0};
-    automatic_candidate largest = {usual_surface(s->t->scene, 1), AUTOMATIC_VIRTUAL, AUTOMATIC_UNIFORM, 0, 0};
-    uint64_t bytes = automatic_bytes(&volumes, s->t->packed, &s->t->base);
-    automatic_choice so_far;
-    choose(&so_far, &s->budget, s->t->results, s->t->count);
-    int has_map =
-        !s->budget.bytes || (automatic_fill(&largest, AUTOMATIC_SQUARE, s->budget.bytes, s->t->packed, &s->t->base) &&
-                             largest.width >= LEAST_SIDE);
-    if (s->failed || s->t->scene->light == GN_POINT || !bytes || (s->budget.bytes && bytes > s->budget.bytes) ||
-        (so_far.keeps && (has_map || !so_far.taken.wrong)))
-        return;
-    s->failed = automatic_try(s->t, &volumes, s->why) < 0;
+    automatic_candidate largest = {usual_surface(scene, 1), AUTOMATIC_VIRTUAL, AUTOMATIC_UNIFORM, 0, 0};
+    uint64_t bytes = scene->light == GN_POINT ? 0 : automatic_bytes(&volumes, packed, base);
+    if (!bytes || (budget->bytes && bytes > budget->bytes) || so_far->taken.error == 0)
+        return 0;
+    int is_of_use = !budget->bytes || (automatic_fill(&largest, AUTOMATIC_SQUARE, budget->bytes, packed, base) &&
+                                       largest.width >= LEAST_SIDE);
+    return !so_far->keeps || !is_of_use;
 }
 
 static int refuse_bytes(const automatic_budget *budget, uint64_t least, problem *why)
@@ -434,13 +432,13 @@ int automatic_search(automatic_choice *choice, automatic_trial *trial, const aut
             search_bytes(&s, budget->bytes, MOST_FIRST);
             search_smaller(&s, budget->bytes);
         }
-        if (!s.failed)
-            try_volumes(&s);
     }
-    if (s.failed)
-        return -1;
     choose(choice, budget, trial->results, trial->count);
-    return 0;
+    if (!s.failed && are_volumes_due(choice, trial->scene, trial->packed, &trial->base, budget)) {
+        s.failed = automatic_try(trial, &volumes, why) < 0;
+        choose(choice, budget, trial->results, trial->count);
+    }
+    return s.failed ? -1 : 0;
 }
 
 /* ---- by the tables alone --------------------------------------------------------------------------------------- */
@@ -489,5 +487,9 @@ int automatic_guess(automatic_choice *choice, const automatic_scene *scene, cons
                                 (unsigned long long)budget->bytes);
     choose(choice, budget, results, (size_t)count);
     choice->tried = 0;
+    if (are_volumes_due(choice, scene, packed, base, budget)) {
+        choice->taken = (automatic_result){.candidate = volumes, .bytes = automatic_bytes(&volumes, packed, base)};
+        choice->keeps = 1;
+    }
     return 0;
 }

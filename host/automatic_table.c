@@ -6,12 +6,12 @@ const automatic_measure automatic_table[AUTOMATIC_TESTS][AUTOMATIC_MEASURED_PLAC
     {
         /* mixed */
         {-2.3954, -0.9217, 1.0020, 0.1689, 109.1, 0.290}, /* uniform */
-        {0, 0, 0, 0, 0, 0}, /* dv */
-        {0, 0, 0, 0, 0, 0}, /* msf */
-        {0, 0, 0, 0, 0, 0}, /* rectilinear */
-        {0, 0, 0, 0, 0, 0}, /* dv+rectilinear */
-        {0, 0, 0, 0, 0, 0}, /* msf+rectilinear */
-        {0, 0, 0, 0, 0, 0}, /* dv+rectilinear-distance */
+        {0, 0, 0, 0, 0, 0},                               /* dv */
+        {0, 0, 0, 0, 0, 0},                               /* msf */
+        {0, 0, 0, 0, 0, 0},                               /* rectilinear */
+        {0, 0, 0, 0, 0, 0},                               /* dv+rectilinear */
+        {0, 0, 0, 0, 0, 0},                               /* msf+rectilinear */
+        {0, 0, 0, 0, 0, 0},                               /* dv+rectilinear-distance */
     },
     {
         /* mixed+virtual */
@@ -36,12 +36,12 @@ const automatic_measure automatic_table[AUTOMATIC_TESTS][AUTOMATIC_MEASURED_PLAC
     {
         /* crossing */
         {-5.9094, -1.2760, 1.5333, 0.2011, 141.1, 0.824}, /* uniform */
-        {0, 0, 0, 0, 0, 0}, /* dv */
-        {0, 0, 0, 0, 0, 0}, /* msf */
-        {0, 0, 0, 0, 0, 0}, /* rectilinear */
-        {0, 0, 0, 0, 0, 0}, /* dv+rectilinear */
+        {0, 0, 0, 0, 0, 0},                               /* dv */
+        {0, 0, 0, 0, 0, 0},                               /* msf */
+        {0, 0, 0, 0, 0, 0},                               /* rectilinear */
+        {0, 0, 0, 0, 0, 0},                               /* dv+rectilinear */
         {-6.1506, -1.1943, 0.5317, 1.1106, 327.5, 0.897}, /* msf+rectilinear */
-        {0, 0, 0, 0, 0, 0}, /* dv+rectilinear-distance */
+        {0, 0, 0, 0, 0, 0},                               /* dv+rectilinear-distance */
     },
 };
 

@@ -12,13 +12,13 @@
 enum { LIT_FROM = 127, NO_SURFACE = 255 };
 
 int automatic_trial_open(automatic_trial *t, const packed_scene *packed, const automatic_scene *scene,
-                         const gn_settings *base, problem *why)
+                         const gn_settings *base, int workers, problem *why)
 {
     memset(t, 0, sizeof *t);
     t->packed = packed;
     t->scene = scene;
     t->base = *base;
-    return truth_make(&t->truth, packed, base->width, base->height, base->workers, 0, why);
+    return truth_make(&t->truth, packed, base->width, base->height, workers, 0, why);
 }
 
 void automatic_trial_close(automatic_trial *t)

@@ -24,9 +24,9 @@ typedef struct automatic_trial {
     size_t count, capacity;
 } automatic_trial;
 
-/* Cast the truth. automatic_trial_close() it, also after an error. 0, or -1 and the problem. */
+/* Cast the truth, with so many threads. automatic_trial_close() it, also after an error. 0, or -1 and the problem. */
 int automatic_trial_open(automatic_trial *t, const packed_scene *packed, const automatic_scene *scene,
-                         const gn_settings *base, problem *why);
+                         const gn_settings *base, int workers, problem *why);
 void automatic_trial_close(automatic_trial *t);
 
 /* Try the candidate, or recall it. Its number in results, which may move; -1 and the problem. */

@@ -119,11 +119,21 @@ check "of_culled_faces" grep -qE '"cull": "(front|back)"' "$folder/stats.json"
 auto "$folder/fence.scene" --budget-bytes 8K --budget-error 0.1 >/dev/null
 check "shadow_volumes_where_no_map_keeps_the_error" grep -q '"shadow": "volumes"' "$folder/stats.json"
 
+# 32 triangles and 48 edges have 8 + 384 bytes; a map of 16 x 16 texels has 512.
+auto "$lshape" --budget-bytes 500 >/dev/null
+check "shadow_volumes_where_no_map_of_use_fits" grep -q '"shadow": "volumes"' "$folder/stats.json"
+auto "$lshape" --budget-bytes 391 >/dev/null
+check "a_small_map_where_they_do_not_fit" holds "$(resident) > 300 && $(resident) <= 391"
+
 # ---- by the tables alone ----
 
 auto "$lshape" --budget-bytes 8K --no-trial >/dev/null
 check "without_a_trial_bytes_are_kept" holds "$(resident) <= 8192 && $(resident) > 8192 * 0.9"
 check "without_a_trial_no_error_is_claimed" sh -c "grep -q 'not tried' '$folder/said' && ! grep -q 'on this view' '$folder/said'"
+
+"$gnomon" render "$lshape" --size 64x48 --budget-bytes 2K --mask "$folder/1.pgm" --workers 1 2>"$folder/1"
+"$gnomon" render "$lshape" --size 64x48 --budget-bytes 2K --mask "$folder/2.pgm" --workers 2 --region 20x7 --map-rows 5 2>"$folder/2"
+check "how_the_work_is_cut_changes_nothing" cmp "$folder/1" "$folder/2"
 
 # ---- what is chosen is what is packed ----
 
