@@ -1,4 +1,5 @@
 /* gnomon bench: how long the passes take. */
+#include "automatic.h"
 #include "choices.h"
 #include "commands.h"
 #include "file.h"
@@ -146,7 +147,7 @@ static int bench(packed_scene *packed, frame *f, times *t, const char *scene, co
     if ((values[RUNS] && option_number("--runs", values[RUNS], 1, 10000, &runs, why)) ||
         (values[JSON] && file_can_write(values[JSON], why)) || file_check_distinct(values + JSON, 1, &scene, 1, why) ||
         packed_read(packed, scene, 0, why) || render_options_read(&settings, packed, values, why) ||
-        work_options_read(&settings, values + WORK, why))
+        work_options_read(&settings, values + WORK, why) || automatic_options_read(&settings, packed, values, why))
         return -1;
     if (!settings.region_width)
         use_large_regions(&settings);

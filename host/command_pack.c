@@ -1,4 +1,5 @@
 /* gnomon pack: the quantised scene as a .gno file or as a C header. */
+#include "automatic.h"
 #include "choices.h"
 #include "commands.h"
 #include "file.h"
@@ -56,7 +57,8 @@ static int pack(packed_scene *packed, const char *scene, const char *const value
     int chosen = 0;
     for (int i = RENDER_METHOD; i <= RENDER_RECONSTRUCT; i++)
         chosen |= values[i] != 0;
-    if (render_options_read(&packed->settings, packed, values, why))
+    if (render_options_read(&packed->settings, packed, values, why) ||
+        automatic_options_read(&packed->settings, packed, values, why))
         return -1;
     packed->has_method |= chosen;
     if (choose_edges(packed, values, why))

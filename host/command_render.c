@@ -1,4 +1,5 @@
 /* gnomon render: a scene in, a shadowed image, masks, depth layers, hashes and statistics out. */
+#include "automatic.h"
 #include "choices.h"
 #include "commands.h"
 #include "file.h"
@@ -460,7 +461,8 @@ static int render(job *j)
 {
     if (packed_read(&j->packed, j->scene_path, j->values[VERBOSE] != 0, &j->why) ||
         render_options_read(&j->settings, &j->packed, j->values, &j->why) ||
-        work_options_read(&j->settings, j->values + WORK, &j->why))
+        work_options_read(&j->settings, j->values + WORK, &j->why) ||
+        automatic_options_read(&j->settings, &j->packed, j->values, &j->why))
         return -1;
     j->settings.mask = j->values[OUTPUT_MASK] || j->values[OUTPUT_HASH];
     j->settings.format = j->values[OUTPUT_IMAGE] || j->values[OUTPUT_HASH] ? GN_RGB888 : GN_NO_COLOUR;

@@ -11,6 +11,9 @@
 enum {
     RENDER_HEAD_METHOD,
     RENDER_METHOD,
+    RENDER_BUDGET_BYTES,
+    RENDER_BUDGET_ERROR,
+    RENDER_NO_TRIAL,
     RENDER_PARAMETERISE,
     RENDER_SMOOTHING,
     RENDER_FIT_DEPTH,
@@ -40,6 +43,15 @@ enum { WORK_HEAD, WORK_WORKERS, WORK_REGION, WORK_MAP_ROWS, WORK_OPTION_COUNT };
      "silhouette. auto (the default): second-depth where every mesh is closed,\n" \
      "else mixed; receiver virtual. volumes: shadow volumes, right at every pixel\n" \
      "but ties, and without a map: none of the options below"}, \
+    {"--budget-bytes", "N", \
+     "with auto: choose method and map for this scene and view: the one that errs\n" \
+     "least of those that keep at most N bytes between the passes (32K, 1M)"}, \
+    {"--budget-error", "E", \
+     "the same: the one of fewest bytes that is wrong at no more than E % of the\n" \
+     "pixels that see a surface; with both budgets the cheapest that keeps both"}, \
+    {"--no-trial", 0, \
+     "with a budget: choose by measured tables alone instead of rendering candidates\n" \
+     "and comparing them with the truth, which takes seconds"}, \
     {"--parameterise", "NAME", \
      "uniform (the default): the map covers the light's frustum evenly. To spend\n" \
      "texels where the camera looks, a fit: dv, the bounds of what it sees, or msf,\n" \
