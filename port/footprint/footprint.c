@@ -35,6 +35,10 @@
 #ifndef FOOTPRINT_VIEW_PASS
 #define FOOTPRINT_VIEW_PASS 1
 #endif
+#ifndef FOOTPRINT_CASTERS
+#define FOOTPRINT_CASTERS 0
+#define FOOTPRINT_STATIC_OBJECTS 0
+#endif
 #ifndef FOOTPRINT_MAP
 #define FOOTPRINT_MAP 128
 #endif
@@ -79,6 +83,8 @@ static gn_settings settings_with(uint16_t map_rows)
     settings.reconstruction = FOOTPRINT_RECONSTRUCTION;
     settings.fit = FOOTPRINT_FIT;
     settings.warp = FOOTPRINT_WARP;
+    settings.casters = FOOTPRINT_CASTERS;
+    settings.static_objects = FOOTPRINT_STATIC_OBJECTS;
     settings.region_height = FOOTPRINT_IMAGE_ROWS;
     settings.map_rows = map_rows;
     return settings;

@@ -84,6 +84,7 @@ job "the same with crossings, small regions" footprint_crossing
 job "second depth, point, desired view" footprint_fit
 job "msf+rectilinear, mixed, silhouettes" footprint_rectilinear
 job "dv+nonorthogonal, map 80 x 80, virtual" footprint_nonorthogonal
+job "map 96 x 96, static casters" footprint_static
 job "shadow volumes" footprint_volumes $volumes_flash_limit
 echo
 echo "Silhouettes take $(($(flash_of footprint_silhouette) - $(flash_of footprint_mixed))) bytes of flash, \

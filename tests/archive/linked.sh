@@ -34,13 +34,18 @@ drawing='gn_draw_silhouette_edges gn_check_drawing gn_lay_out_drawn gn_begin_can
     gn_find_facings gn_edge_winding gn_check_edges gn_half_edge_ends gn_nearest_row'
 silhouettes="$drawing gn_silhouettes gn_draw_silhouettes gn_segment_rows gn_segment_columns gn_segment_in_cell"
 crossings='gn_crossings gn_draw_crossings'
+casters='gn_static_casters'
 maps='gn_silhouette_map gn_crossing_map gn_silhouettes_smooth'
 
 # Each name is held by some program, so that none is misspelt.
 # shellcheck disable=SC2086 # words
 {
     check "a program with points and the nearest texel alone holds the test of a row" has footprint gn_shade_row
-    check "and no cascade, no planes, no filters, no silhouettes" lacks footprint $cascade $planes $filters $silhouettes $crossings $maps
+    check "and no cascade, no planes, no filters, no silhouettes, no static casters" \
+        lacks footprint $cascade $planes $filters $silhouettes $crossings $maps $casters
+    check "one with static casters holds them" has footprint_static $casters
+    check "and no cascade, no silhouettes, no point lights, no fits" lacks footprint_static $cascade $silhouettes \
+        $crossings gn_begin_face gn_view_pass
     check "one with virtual samples holds cascade and planes" has footprint_virtual $cascade gn_find_plane gn_virtual
     check "and no filters, no silhouettes" lacks footprint_virtual $filters $silhouettes $crossings $maps
     check "one with silhouettes holds cascade, planes and silhouettes" \

@@ -74,7 +74,7 @@ static void move_what_moves(events *e, int32_t reach)
             change(&e->models[i], reach);
 }
 
-/* A static object gets a place of its own, or loses it, or is pushed. */
+/* A static object gets a model, or loses it, or it is changed, or is the next one's now. */
 static void move_what_stands(events *e, int32_t reach)
 {
     uint32_t i;
@@ -82,7 +82,12 @@ static void move_what_stands(events *e, int32_t reach)
         return;
     i = (uint32_t)between(0, e->still - 1);
     e->same = 0;
-    if (e->objects[i].model && between(0, 3)) {
+    uint32_t next = i + 1 < e->still ? i + 1 : 0;
+    if (e->objects[i].model && !e->objects[next].model && between(0, 1)) {
+        e->models[next] = e->models[i];
+        e->objects[next].model = &e->models[next];
+        e->objects[i].model = 0;
+    } else if (e->objects[i].model && between(0, 3)) {
         change(&e->models[i], reach);
     } else if (e->objects[i].model) {
         e->objects[i].model = 0;
@@ -175,14 +180,14 @@ static gn_light random_light(int32_t width, int32_t height)
     return light;
 }
 
-/* Another light: by so little that its map may be the same, of the other kind, or anywhere. */
+/* Another light: by one of its numbers, or of the other kind. */
 static void change_light(gn_light *light, int32_t width, int32_t height)
 {
     gn_light before = *light;
-    if (between(0, 1) && light->kind == GN_DIRECTIONAL) {
-        light->box_depth += 1;
-    } else if (between(0, 1) && light->kind == GN_SPOT) {
-        light->position[between(0, 2)] += 1;
+    int32_t *const numbers[2][4] = {{&light->box_u, &light->box_v, &light->box_z, &light->box_depth},
+                                    {&light->position[0], &light->position[2], &light->near_depth, &light->far_depth}};
+    if (between(0, 3)) {
+        *numbers[light->kind == GN_SPOT][between(0, 3)] += 100;
     } else {
         do
             *light = random_light(width, height);
@@ -805,6 +810,47 @@ static void view_passes_count(void)
     ok(good, "after a view pass that finds another rectangle, or any with a warp, static objects are drawn again");
 }
 
+/* A level in the shadow of a roof as wide as the light's box; after the light pass it moves out of the box, beside the
+ * map's right end, and is lit there, as what lies beyond the box is. */
+static void models_may_move_between_the_passes(void)
+{
+    int good = 1;
+    for (int kept = 0; kept < 2; kept++) {
+        two_levels l;
+        frame f;
+        gn_camera camera;
+        gn_light light = grid_light(8, 8);
+        gn_settings settings = gn_default_settings(4, 4, 8);
+        settings.surface = GN_CONSTANT;
+        settings.mask = 1;
+        settings.casters = kept ? &gn_static_casters : 0;
+        settings.static_objects = 1;
+        make_levels(&l);
+        shape_free(&l.shapes[0]);
+        l.shapes[0] = shape_new(0);
+        add_level(&l.shapes[0], 100, 100, 1948, 1948, -100, 1);
+        l.model.t[0] = l.model.t[1] = 512;
+        l.model.t[2] = -200;
+        gn_status status = frame_start(&f, &l.scene, &settings);
+        for (int moved = 0; status == GN_OK && moved < 2; moved++) {
+            uint64_t lit = 0, shadowed = 0;
+            status = gn_light_pass(f.context, &light);
+            l.model.t[0] = moved ? 2048 + 512 : 512;
+            if (status == GN_OK)
+                status = camera_above(&camera, l.model.t[0], 512, 256);
+            if (status == GN_OK) /* below the roof */
+                status = gn_orthographic(&camera, 128, 1150, 1 << 20);
+            if (status == GN_OK)
+                status = gn_camera_pass(f.context, &camera, frame_flush, &f);
+            count_mask(&f, &lit, &shadowed);
+            good &= status == GN_OK && (moved ? lit : shadowed) == 16;
+        }
+        good &= frame_end(&f);
+        free_levels(&l);
+    }
+    ok(good, "an object that has left the light's box since the light pass is lit");
+}
+
 static void note_counts(const tally *count)
 {
     note("%llu frames, %llu with kept layers, %llu refused; %llu triangles drawn, %llu not drawn again",
@@ -863,6 +909,7 @@ int main(int argc, char **argv)
     depths_by_hand();
     plans_say_what_is_kept();
     view_passes_count();
+    models_may_move_between_the_passes();
     layers_are_those_of_one_pass(cases);
     pictures_are_those_of_one_pass(cases / 3);
     faces_are_those_of_one_pass(cases / 15);

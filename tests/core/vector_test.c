@@ -24,6 +24,7 @@ enum { LIBRARY_HAS_VECTORS = GN_VECTOR };
 #define GN_BLOCK 7
 
 /* The light pass. */
+#define gn_draw_rows twin_draw_rows
 #define gn_nearest_row twin_nearest_row
 #define gn_light_begin twin_light_begin
 #define gn_light_pass twin_light_pass
@@ -38,6 +39,7 @@ gn_status gn_light_resolve(gn_context *context, uint32_t region, uint32_t worker
 const gn_depth *gn_layer(const gn_context *context, uint32_t layer, uint32_t region, uint32_t worker,
                          uint32_t *first_row, uint32_t *rows, uint32_t *stride);
 #include "gn_light_pass.c"
+#undef gn_draw_rows
 #undef gn_nearest_row
 #undef gn_light_begin
 #undef gn_light_pass
