@@ -83,6 +83,8 @@ static void fail(const char *what, const golden_scene *golden, const method *by,
     port_exit(1);
 }
 
+static gn_model moved_model; /* of the last object, where it is staged as moved */
+
 /* Copy what gn_layer gives of one region into its place in a whole plane. Planes that do not exist stay zero. */
 static void keep_layer(gn_depth *plane, const gn_context *context, uint32_t layer, uint32_t region)
 {
@@ -325,10 +327,23 @@ static gn_status find_volumes(result *out, gn_context *context, const golden_sce
 }
 
 /* What comes before the image and stays; of a point light with one map at a time: nothing. */
+/* A light pass with the last object elsewhere: its layers without that object stay, and the next pass inserts it. */
+static gn_status keep_casters(gn_context *context, const golden_scene *golden)
+{
+    const gn_model here = moved_model;
+    moved_model.t[1] += golden->light->box_width >> 3;
+    moved_model.t[0] -= golden->camera->half_height >> 3;
+    gn_status status = gn_light_pass(context, golden->light);
+    moved_model = here;
+    return status;
+}
+
 static gn_status see_light(result *out, gn_context *context, const gn_plan *plan, const golden_scene *golden,
                            const method *by, int small_regions)
 {
     out->light_instructions = 0;
+    if (by->casters && keep_casters(context, golden) != GN_OK)
+        return GN_NOT_READY;
     if (by->shadow == GN_SHADOW_VOLUMES)
         return find_volumes(out, context, golden);
     if (by->faces == &gn_six_faces)
@@ -349,6 +364,7 @@ static gn_status see_image(gn_context *context, const golden_scene *golden, cons
 static void render(result *out, const golden_scene *golden, const method *by, int small_regions)
 {
     gn_settings settings = settings_of(by, small_regions);
+    settings.static_objects = by->casters ? golden->scene->object_count - 1 : 0;
     gn_plan plan;
     gn_context *context;
 
@@ -384,7 +400,6 @@ static void render(result *out, const golden_scene *golden, const method *by, in
 enum { MOST_OBJECTS = 4 };
 static gn_object staged_objects[MOST_OBJECTS];
 static gn_mesh soup;
-static gn_model moved_model;
 static gn_scene staged_scene;
 static gn_camera staged_camera;
 static gn_light staged_light;

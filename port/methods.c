@@ -46,6 +46,13 @@ const method methods[] = {
      .bias = TEXELS_2,
      .receiver = &gn_virtual_always,
      .staging = MOVED},
+    {.name = "kept-moved", /* the hashes of always-moved */
+     .surface = GN_MIXED,
+     .format = GN_RGB565,
+     .bias = TEXELS_2,
+     .receiver = &gn_virtual_always,
+     .casters = &gn_static_casters,
+     .staging = MOVED},
     {.name = "plane-bias", .format = GN_RGB888, .bias = RANGE_2000TH, .slope = SLOPE_1, .receiver = &gn_plane_bias},
     {.name = "bilinear",
      .surface = GN_DUAL,
@@ -183,6 +190,7 @@ gn_settings settings_of(const method *by, int small_regions)
     settings.smoothing = by->smoothing;
     settings.fit_depth = by->fit_depth;
     settings.faces = by->faces;
+    settings.casters = by->casters;
     settings.mask = 1;
     if (small_regions) {
         settings.map_rows = 24;

@@ -27,6 +27,7 @@ typedef struct method {
     uint8_t fit_depth;
     gn_shadow shadow;
     const gn_faces *faces;
+    const gn_casters *casters; /* all objects but the last stand still */
     staging staging;
 } method;
 
