@@ -163,7 +163,11 @@ static int fill_operations(sweep_row *row, const measurement *m)
  * ------------------------------------------------------------------------------------------------------- */
 
 /* Shadow volumes have no map to be compared at. */
-enum { ROUNDS = 3, MAP_FOR_VOLUMES = 512 };
+enum { MAP_FOR_VOLUMES = 512 };
+
+/* Short frames are disturbed more, and cost less to repeat. */
+enum { LEAST_ROUNDS = 3, MOST_ROUNDS = 12 };
+static const double enough_seconds = 0.12;
 
 static double seconds_of(const lane_frame *f)
 {
@@ -173,19 +177,19 @@ static double seconds_of(const lane_frame *f)
     return sum;
 }
 
-static int take_time(const measurement *m, const char *const values[], double *least)
+static int take_time(const measurement *m, const char *const values[], double *least, double *sum)
 {
     lane_frame f;
     if (lane_find(m->cell->depth_bits, 0)->measure(&f, &m->scene->packed, values, 1, m->why))
         return -1;
     *least = fmin(*least, seconds_of(&f));
+    *sum += seconds_of(&f);
     return 0;
 }
 
-/* own: of the frame that there is already. */
-static int fill_time(sweep_row *row, const measurement *m, double own)
+static int fill_time(sweep_row *row, const measurement *m)
 {
-    double constant = HUGE_VAL;
+    double own = HUGE_VAL, constant = HUGE_VAL, sum = 0;
     sweep_choice reference;
     const sweep_cell *cell = m->cell;
     if (cell->chain == &sweep_chains[0]) {
@@ -193,8 +197,8 @@ static int fill_time(sweep_row *row, const measurement *m, double own)
         return 0;
     }
     sweep_choice_make(&reference, &sweep_chains[0], cell->map ? cell->map : MAP_FOR_VOLUMES, m->image_text, 0);
-    for (int round = 0; round < ROUNDS; round++)
-        if (take_time(m, reference.values, &constant) || (round && take_time(m, m->choice.values, &own)))
+    for (int round = 0; round < LEAST_ROUNDS || (round < MOST_ROUNDS && sum < enough_seconds); round++)
+        if (take_time(m, reference.values, &constant, &sum) || take_time(m, m->choice.values, &own, &sum))
             return -1;
     row->host_ratio = own / constant;
     return 0;
@@ -228,9 +232,8 @@ int sweep_measure(sweep_cell *cell, const char *image_text, problem *why)
     fill_errors(row, &c);
     fill_bytes(row, &f.plan);
     fill_counts(row, &m, &f.statistics);
-    double seconds = seconds_of(&f);
     lane_frame_free(&f);
-    return fill_operations(row, &m) || fill_time(row, &m, seconds) ? -1 : 0;
+    return fill_operations(row, &m) || fill_time(row, &m) ? -1 : 0;
 }
 
 uint8_t *sweep_mask(const sweep_scene *scene, const sweep_row *row, const char *image_text, problem *why)
