@@ -1,6 +1,7 @@
 #include "sweep_measure.h"
 
 #include "comparison.h"
+#include "cost_model.h"
 #include "lane.h"
 #include "sweep_bias.h"
 
@@ -138,25 +139,51 @@ static void fill_counts(sweep_row *row, const measurement *m, const gn_statistic
     fill_model(row, m, s);
 }
 
-static int fill_operations(sweep_row *row, const measurement *m)
+static void fill_operations(sweep_row *row, uint64_t operations[LANE_PASSES][LANE_OPERATIONS])
 {
-    const lane *counting = lane_find(m->cell->depth_bits, 1);
-    lane_frame f;
     double sums[LANE_OPERATIONS] = {0};
-    if (!counting)
-        return 0;
-    if (counting->measure(&f, &m->scene->packed, m->choice.values, 1, m->why))
-        return -1;
     for (int pass = 0; pass < LANE_PASSES; pass++)
         for (int kind = 0; kind < LANE_OPERATIONS; kind++)
-            sums[kind] += (double)f.operations[pass][kind];
+            sums[kind] += (double)operations[pass][kind];
     row->multiplies = sums[LANE_MULTIPLY];
     row->divides = sums[LANE_DIVIDE];
     row->adds = sums[LANE_ADD];
     row->loads = sums[LANE_LOAD];
     row->stores = sums[LANE_STORE];
     row->others = sums[LANE_OTHER];
+}
+
+/* To what the model was not fitted to, it says nothing, and the columns stay empty. */
+static int fill_instructions(sweep_row *row, const measurement *m, const lane_frame *f,
+                             const uint64_t operations[LANE_PASSES][LANE_OPERATIONS])
+{
+    packed_scene packed = m->scene->packed; /* its edges are there: nothing of it is written */
+    gn_settings settings;
+    problem unused;
+    double instructions[LANE_PASSES];
+    if (render_options_read(&settings, &packed, m->choice.values, m->why))
+        return -1;
+    if (cost_model_m4(instructions, &settings, &f->plan, &f->statistics, operations, packed.light.kind, &unused))
+        return 0;
+    row->m4_view = instructions[LANE_VIEW];
+    row->m4_light = instructions[LANE_LIGHT];
+    row->m4_camera = instructions[LANE_CAMERA];
+    if (f->statistics.pixels_shaded)
+        row->m4_pixel = (row->m4_view + row->m4_light + row->m4_camera) / (double)f->statistics.pixels_shaded;
     return 0;
+}
+
+/* f: of the lane that does not count. */
+static int fill_cost(sweep_row *row, const measurement *m, const lane_frame *f)
+{
+    const lane *counting = lane_find(m->cell->depth_bits, 1);
+    lane_frame counted;
+    if (!counting)
+        return fill_instructions(row, m, f, 0);
+    if (counting->measure(&counted, &m->scene->packed, m->choice.values, 1, m->why))
+        return -1;
+    fill_operations(row, counted.operations);
+    return fill_instructions(row, m, f, (const uint64_t(*)[LANE_OPERATIONS])counted.operations);
 }
 
 /* ---- host time
@@ -232,8 +259,9 @@ int sweep_measure(sweep_cell *cell, const char *image_text, problem *why)
     fill_errors(row, &c);
     fill_bytes(row, &f.plan);
     fill_counts(row, &m, &f.statistics);
+    int result = fill_cost(row, &m, &f) || fill_time(row, &m) ? -1 : 0;
     lane_frame_free(&f);
-    return fill_operations(row, &m) || fill_time(row, &m) ? -1 : 0;
+    return result;
 }
 
 uint8_t *sweep_mask(const sweep_scene *scene, const sweep_row *row, const char *image_text, problem *why)
