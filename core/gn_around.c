@@ -50,11 +50,12 @@ void gn_settle(const gn_reconstruction *how, const gn_lookup *lookup, gn_points 
 void gn_vote_nearest(const gn_lookup *l, gn_points *points)
 {
     for (int32_t i = 0; i < points->count; i++) {
+        if (points->u[i] == GN_NOWHERE) { /* and no v */
+            points->dark[i] = gn_dark_nowhere(l, points->z[i]);
+            continue;
+        }
         uint32_t column = gn_texel(points->u[i], l->last_column, l->bits);
         uint32_t row = gn_texel(points->v[i], l->last_row, l->bits);
-        if (points->u[i] == GN_NOWHERE)
-            points->dark[i] = gn_dark_nowhere(l, points->z[i]);
-        else
-            points->dark[i] = gn_cut(points->z[i]) <= l->map[row * l->stride + column] ? 0 : GN_DARK;
+        points->dark[i] = gn_cut(points->z[i]) <= l->map[row * l->stride + column] ? 0 : GN_DARK;
     }
 }

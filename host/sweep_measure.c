@@ -1,6 +1,7 @@
 #include "sweep_measure.h"
 
 #include "comparison.h"
+#include "cost_model.h"
 #include "lane.h"
 #include "sweep_bias.h"
 
@@ -138,32 +139,62 @@ static void fill_counts(sweep_row *row, const measurement *m, const gn_statistic
     fill_model(row, m, s);
 }
 
-static int fill_operations(sweep_row *row, const measurement *m)
+static void fill_operations(sweep_row *row, uint64_t operations[LANE_PASSES][LANE_OPERATIONS])
 {
-    const lane *counting = lane_find(m->cell->depth_bits, 1);
-    lane_frame f;
     double sums[LANE_OPERATIONS] = {0};
-    if (!counting)
-        return 0;
-    if (counting->measure(&f, &m->scene->packed, m->choice.values, 1, m->why))
-        return -1;
     for (int pass = 0; pass < LANE_PASSES; pass++)
         for (int kind = 0; kind < LANE_OPERATIONS; kind++)
-            sums[kind] += (double)f.operations[pass][kind];
+            sums[kind] += (double)operations[pass][kind];
     row->multiplies = sums[LANE_MULTIPLY];
     row->divides = sums[LANE_DIVIDE];
     row->adds = sums[LANE_ADD];
     row->loads = sums[LANE_LOAD];
     row->stores = sums[LANE_STORE];
     row->others = sums[LANE_OTHER];
+}
+
+/* To what the model was not fitted to, it says nothing, and the columns stay empty. */
+static int fill_instructions(sweep_row *row, const measurement *m, const lane_frame *f,
+                             const uint64_t operations[LANE_PASSES][LANE_OPERATIONS])
+{
+    packed_scene packed = m->scene->packed; /* its edges are there: nothing of it is written */
+    gn_settings settings;
+    problem unused;
+    double instructions[LANE_PASSES];
+    if (render_options_read(&settings, &packed, m->choice.values, m->why))
+        return -1;
+    if (cost_model_m4(instructions, &settings, &f->plan, &f->statistics, operations, packed.light.kind, &unused))
+        return 0;
+    row->m4_view = instructions[LANE_VIEW];
+    row->m4_light = instructions[LANE_LIGHT];
+    row->m4_camera = instructions[LANE_CAMERA];
+    if (f->statistics.pixels_shaded)
+        row->m4_pixel = (row->m4_view + row->m4_light + row->m4_camera) / (double)f->statistics.pixels_shaded;
     return 0;
+}
+
+/* f: of the lane that does not count. */
+static int fill_cost(sweep_row *row, const measurement *m, const lane_frame *f)
+{
+    const lane *counting = lane_find(m->cell->depth_bits, 1);
+    lane_frame counted;
+    if (!counting)
+        return fill_instructions(row, m, f, 0);
+    if (counting->measure(&counted, &m->scene->packed, m->choice.values, 1, m->why))
+        return -1;
+    fill_operations(row, counted.operations);
+    return fill_instructions(row, m, f, (const uint64_t(*)[LANE_OPERATIONS])counted.operations);
 }
 
 /* ---- host time
  * ------------------------------------------------------------------------------------------------------- */
 
 /* Shadow volumes have no map to be compared at. */
-enum { ROUNDS = 3, MAP_FOR_VOLUMES = 512 };
+enum { MAP_FOR_VOLUMES = 512 };
+
+/* Short frames are disturbed more, and cost less to repeat. */
+enum { LEAST_ROUNDS = 3, MOST_ROUNDS = 12 };
+static const double enough_seconds = 0.12;
 
 static double seconds_of(const lane_frame *f)
 {
@@ -173,19 +204,19 @@ static double seconds_of(const lane_frame *f)
     return sum;
 }
 
-static int take_time(const measurement *m, const char *const values[], double *least)
+static int take_time(const measurement *m, const char *const values[], double *least, double *sum)
 {
     lane_frame f;
     if (lane_find(m->cell->depth_bits, 0)->measure(&f, &m->scene->packed, values, 1, m->why))
         return -1;
     *least = fmin(*least, seconds_of(&f));
+    *sum += seconds_of(&f);
     return 0;
 }
 
-/* own: of the frame that there is already. */
-static int fill_time(sweep_row *row, const measurement *m, double own)
+static int fill_time(sweep_row *row, const measurement *m)
 {
-    double constant = HUGE_VAL;
+    double own = HUGE_VAL, constant = HUGE_VAL, sum = 0;
     sweep_choice reference;
     const sweep_cell *cell = m->cell;
     if (cell->chain == &sweep_chains[0]) {
@@ -193,8 +224,8 @@ static int fill_time(sweep_row *row, const measurement *m, double own)
         return 0;
     }
     sweep_choice_make(&reference, &sweep_chains[0], cell->map ? cell->map : MAP_FOR_VOLUMES, m->image_text, 0);
-    for (int round = 0; round < ROUNDS; round++)
-        if (take_time(m, reference.values, &constant) || (round && take_time(m, m->choice.values, &own)))
+    for (int round = 0; round < LEAST_ROUNDS || (round < MOST_ROUNDS && sum < enough_seconds); round++)
+        if (take_time(m, reference.values, &constant, &sum) || take_time(m, m->choice.values, &own, &sum))
             return -1;
     row->host_ratio = own / constant;
     return 0;
@@ -228,9 +259,9 @@ int sweep_measure(sweep_cell *cell, const char *image_text, problem *why)
     fill_errors(row, &c);
     fill_bytes(row, &f.plan);
     fill_counts(row, &m, &f.statistics);
-    double seconds = seconds_of(&f);
+    int result = fill_cost(row, &m, &f) || fill_time(row, &m) ? -1 : 0;
     lane_frame_free(&f);
-    return fill_operations(row, &m) || fill_time(row, &m, seconds) ? -1 : 0;
+    return result;
 }
 
 uint8_t *sweep_mask(const sweep_scene *scene, const sweep_row *row, const char *image_text, problem *why)

@@ -96,6 +96,16 @@ check "bandwidth_of_silhouettes_is_1_and_6_P" equal "$(cell bandwidth silhouette
 check "bandwidth_of_volumes_is_5.5_O_over_4" equal "$(cell bandwidth volumes 0 "$csv")" "$(echo "$(cell overdraw volumes 0 "$csv")" | awk '{ printf "%.9g", 5.5 * $1 / 4 }')"
 check "the_model_says_nothing_of_filters" test -z "$(cell bandwidth pcf5 32 "$csv")"
 
+# Where a lane counts (LANE_CLANG), operations stand in all rows; the cost model's instructions always.
+check "all_rows_have_operations_or_none" test "$(column loads "$csv" | sed 's/[0-9][0-9]*/n/' | sort -u | wc -l)" = 1
+check "all_rows_have_instructions" sh -c "! awk -F, 'NR > 1 { for (i = 34; i <= 37; i++) if (\$i == \"\") print }' '$csv' | grep ."
+per_pixel() {
+    equal "$(cell m4_pixel "$1" "$2" "$csv")" "$(awk -v v="$(cell m4_view "$1" "$2" "$csv")" -v l="$(cell m4_light "$1" "$2" "$csv")" \
+        -v c="$(cell m4_camera "$1" "$2" "$csv")" -v p="$(cell pixels "$1" "$2" "$csv")" 'BEGIN { printf "%.9g", (v + l + c) / p }')"
+}
+check "instructions_a_pixel_are_of_all_passes" per_pixel silhouette/msf+rectilinear 120
+check "without_a_view_pass_none_are_of_it" equal "$(cell m4_view mixed 32 "$csv")" 0
+
 # ---- the best bias --------------------------------------------------------------------------------------------------
 
 # No power of two from 1/8 to 32 texels is better.
