@@ -35,7 +35,7 @@ static const char *const style[] = {
     ".key{display:inline-block;width:1em;height:1em;border:1px solid #555;vertical-align:-.1em;margin-right:3px}\n",
     ".rows{margin:12px 0}.rows label{margin:0 16px 0 4px;font-size:.84rem}\n"
     ".rows input[type=search]{font:inherit;font-size:.84rem;padding:2px 6px;border:1px solid "
-    "#888;width:14em;max-width:100%}\n"
+    "#888;width:17em;max-width:100%}\n"
     ".box{overflow:auto;max-height:70vh;border:1px solid #bbb;margin-top:6px}\n"
     "table{border-collapse:separate;border-spacing:0;font-size:.8rem;line-height:1.35;font-variant-numeric:tabular-"
     "nums}\n"

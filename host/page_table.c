@@ -34,18 +34,21 @@ static int holds_something(const page_input *in, const sweep_column *column)
     return 0;
 }
 
+static void take_column(page *p, int number)
+{
+    if (holds_something(p->input, &sweep_columns[number]))
+        p->columns[p->column_count++] = number;
+}
+
 void page_find_columns(page *p)
 {
-    for (int pass = 0; pass < 2; pass++) {
-        for (int i = 0; i < SWEEP_COLUMNS; i++) {
-            const sweep_column *c = &sweep_columns[i];
-            if (is_one_of(c->name, main_columns, MAIN_COLUMNS) == !pass && !is_one_of(c->name, left_out, LEFT_OUT) &&
-                holds_something(p->input, c))
-                p->columns[p->column_count++] = i;
-        }
-        if (!pass)
-            p->main_count = p->column_count;
-    }
+    for (int i = 0; i < MAIN_COLUMNS; i++)
+        take_column(p, (int)(sweep_column_find(main_columns[i], strlen(main_columns[i])) - sweep_columns));
+    p->main_count = p->column_count;
+    for (int i = 0; i < SWEEP_COLUMNS; i++)
+        if (!is_one_of(sweep_columns[i].name, main_columns, MAIN_COLUMNS) &&
+            !is_one_of(sweep_columns[i].name, left_out, LEFT_OUT))
+            take_column(p, i);
 }
 
 /* Underscores as blanks, so that a narrow column's name may be broken. */

@@ -26,16 +26,26 @@ plot_text page_at_cost(const page *p, const sweep_row *row)
     return t;
 }
 
+/* Was its bias searched for, so that the chain's name does not say it? */
+static int has_own_bias(const sweep_row *row)
+{
+    return strstr(row->chain, "-best") && !isnan(row->bias);
+}
+
 void page_write_choice(const page *p, const sweep_row *row)
 {
     fputs("<b>", p->stream);
     markup_text(p->stream, row->chain);
     fputs("</b>", p->stream);
-    if (row->map > 0)
-        fprintf(p->stream,
-                " (map\xc2\xa0%.0f\xc2\xa0\xc3\x97\xc2\xa0%.0f, %.0f\xc2\xa0"
-                "bits)",
-                row->map, row->map, row->depth_bits);
+    if (row->map == 0)
+        return;
+    fprintf(p->stream,
+            " (map\xc2\xa0%.0f\xc2\xa0\xc3\x97\xc2\xa0%.0f, %.0f\xc2\xa0"
+            "bits",
+            row->map, row->map, row->depth_bits);
+    if (has_own_bias(row))
+        fprintf(p->stream, ", bias of %s\xc2\xa0texels", plot_number(row->bias).text);
+    fputs(")", p->stream);
 }
 
 /* ---- advice ----------------------------------------------------------------------------------------------------- */

@@ -477,7 +477,7 @@ void plot_write_style(FILE *stream)
           ".j{stroke:#000;stroke-width:.6}\n"
           ".plot .y{font-size:11px}.plot .n{paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}\n"
           ".plot .d{font-weight:bold}.plot .x{font-weight:bold}\n"
-          ".r use{stroke-width:.8;opacity:.75}.p use{stroke-width:1.9}\n",
+          ".r use{stroke-width:.8;opacity:.75}.p use{stroke-width:1.9;stroke:#000}\n",
           stream);
     for (int i = 0; i < PLOT_SHAPES; i++)
         fprintf(stream, ".k%d,.k%df{stroke:%s;fill:#fff}.k%df{fill:%s;fill-opacity:.55}\n", i, i, colours[i], i,
