@@ -78,7 +78,7 @@ static note describe(const page *p, const sweep_row *row)
     if (row->map > 0)
         length +=
             snprintf(n.text + length, sizeof n.text - (size_t)length, ", %s", plot_bytes(row->resident_bytes).text);
-    snprintf(n.text + length, sizeof n.text - (size_t)length, "%s", page_at_cost(p, row).text);
+    snprintf(n.text + length, sizeof n.text - (size_t)length, "%s", page_at_cost(p, advice_cost_of(row, p->cost)).text);
     return n;
 }
 
@@ -215,7 +215,7 @@ static void write_against_bytes(const page *p, const page_rows *rows, const char
                .mark_count = p->budget_count};
     snprintf(title, sizeof title, "Wrong pixels against resident bytes, %.64s", scene);
     if (volumes) {
-        snprintf(level, sizeof level, "%s, no map", volumes->chain);
+        snprintf(level, sizeof level, "%s, no map: %s", volumes->chain, page_error(volumes->error).text);
         of.level = volumes->error;
         of.level_name = level;
     }

@@ -225,8 +225,8 @@ static void write_best_means(const page *p, const mean *chains, size_t count)
             continue;
         fprintf(p->stream, "<li>For %s: <b>", plot_bytes(p->budgets[b]).text);
         markup_text(p->stream, best.row->chain);
-        fprintf(p->stream, "</b>, %.0f bits: %s wrong in the mean</li>\n", best.row->depth_bits,
-                page_error(best.error).text);
+        fprintf(p->stream, "</b>, %.0f bits: %s wrong in the mean%s</li>\n", best.row->depth_bits,
+                page_error(best.error).text, page_at_cost(p, best.cost).text);
     }
     fputs("</ul>\n", p->stream);
 }

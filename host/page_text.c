@@ -14,11 +14,10 @@ plot_text page_error(double error)
     return t;
 }
 
-plot_text page_at_cost(const page *p, const sweep_row *row)
+plot_text page_at_cost(const page *p, double cost)
 {
     static const char *const formats[] = {" at %.12s instructions a pixel", " at %.12s times constant"};
     plot_text t = {""};
-    double cost = advice_cost_of(row, p->cost);
     if (!isnan(cost)) {
         plot_text number = plot_number(cost);
         snprintf(t.text, sizeof t.text, formats[p->cost == ADVICE_HOST_RATIO], number.text);
@@ -52,7 +51,19 @@ void page_write_choice(const page *p, const sweep_row *row)
 
 static void write_wrong(const page *p, const sweep_row *row)
 {
-    fprintf(p->stream, "%s wrong%s", page_error(row->error).text, page_at_cost(p, row).text);
+    fprintf(p->stream, "%s wrong%s", page_error(row->error).text, page_at_cost(p, advice_cost_of(row, p->cost)).text);
+}
+
+/* A sentence about a row, if there is one. */
+static void write_other(const page *p, const char *start, const sweep_row *row, const char *middle)
+{
+    if (!row)
+        return;
+    fputs(start, p->stream);
+    page_write_choice(p, row);
+    fputs(middle, p->stream);
+    write_wrong(p, row);
+    fputs(".", p->stream);
 }
 
 static void write_budget(const page *p, const advice_rows *of, double budget)
@@ -60,29 +71,14 @@ static void write_budget(const page *p, const advice_rows *of, double budget)
     const sweep_row *best = advice_best(of, budget);
     if (!best)
         return;
-    const sweep_row *cheaper = advice_cheaper(of, budget, best), *avoid = advice_avoid(of, budget, best);
     if (isfinite(budget))
         fprintf(p->stream, "<li>For %s take ", plot_bytes(budget).text);
     else
         fputs("<li>Take ", p->stream);
-    page_write_choice(p, best);
-    fputs(": ", p->stream);
-    write_wrong(p, best);
-    fputs(".", p->stream);
-    if (cheaper) {
-        fputs(" Nearly as good for less: ", p->stream);
-        page_write_choice(p, cheaper);
-        fputs(", ", p->stream);
-        write_wrong(p, cheaper);
-        fputs(".", p->stream);
-    }
-    if (avoid) {
-        fputs(" Avoid ", p->stream);
-        page_write_choice(p, avoid);
-        fputs(": no cheaper, and ", p->stream);
-        write_wrong(p, avoid);
-        fputs(".", p->stream);
-    }
+    write_other(p, "", best, ": ");
+    write_other(p, " Nearly as good for less: ", advice_cheaper(of, budget, best), ", ");
+    write_other(p, " Avoid ", advice_avoid(of, budget, best), ": no cheaper, and ");
+    write_other(p, " To compare: ", advice_usual(of, budget, best), ", ");
     fputs("</li>\n", p->stream);
 }
 

@@ -56,8 +56,8 @@ typedef struct plot {
     size_t line_count;
     const double *marks; /* upright lines, each with its number */
     size_t mark_count;
-    double level; /* a level line over the whole width; 0: none */
-    const char *level_name;
+    double level;           /* a level line over the whole width; at the border where it is beyond the points */
+    const char *level_name; /* 0: no such line */
 } plot;
 
 /* The points that no other one beats: none is at most as far to the right and at most as high, and less in one of both.
