@@ -253,8 +253,8 @@ static void write_mean_rows(const page *p, const mean *chains, size_t count)
 static void write_mean_heads(const page *p, const char *what, int sorted)
 {
     for (size_t b = 0; b < p->budget_count; b++) {
-        char name[64];
-        snprintf(name, sizeof name, "%.24s, %.32s", what, plot_bytes(p->budgets[b]).text);
+        char name[80];
+        snprintf(name, sizeof name, "%.30s, %.30s", what, plot_bytes(p->budgets[b]).text);
         write_head(p->stream, name, 1, sorted && b == p->budget_count / 2);
     }
 }

@@ -4,11 +4,14 @@
 #include <math.h>
 #include <string.h>
 
+/* That lines do not end at. */
+#define BLANK "\xc2\xa0"
+
 plot_text page_error(double error)
 {
     plot_text t, number = plot_number(error);
     if (error > 0)
-        snprintf(t.text, sizeof t.text, "%.24s\xc2\xa0%%", number.text);
+        snprintf(t.text, sizeof t.text, "%.30s" BLANK "%%", number.text);
     else
         snprintf(t.text, sizeof t.text, "no pixel");
     return t;
@@ -16,12 +19,11 @@ plot_text page_error(double error)
 
 plot_text page_at_cost(const page *p, double cost)
 {
-    static const char *const formats[] = {" at %.12s instructions a pixel", " at %.12s times constant"};
-    plot_text t = {""};
-    if (!isnan(cost)) {
-        plot_text number = plot_number(cost);
-        snprintf(t.text, sizeof t.text, formats[p->cost == ADVICE_HOST_RATIO], number.text);
-    }
+    plot_text t = {""}, number = plot_number(cost);
+    if (p->cost == ADVICE_INSTRUCTIONS && *number.text)
+        snprintf(t.text, sizeof t.text, " at %.30s instructions a pixel", number.text);
+    else if (*number.text)
+        snprintf(t.text, sizeof t.text, " at %.30s times constant", number.text);
     return t;
 }
 
@@ -38,12 +40,10 @@ void page_write_choice(const page *p, const sweep_row *row)
     fputs("</b>", p->stream);
     if (row->map == 0)
         return;
-    fprintf(p->stream,
-            " (map\xc2\xa0%.0f\xc2\xa0\xc3\x97\xc2\xa0%.0f, %.0f\xc2\xa0"
-            "bits",
-            row->map, row->map, row->depth_bits);
+    fprintf(p->stream, " (map" BLANK "%.0f" BLANK "\xc3\x97" BLANK "%.0f, %.0f" BLANK "bits", row->map, row->map,
+            row->depth_bits);
     if (has_own_bias(row))
-        fprintf(p->stream, ", bias of %s\xc2\xa0texels", plot_number(row->bias).text);
+        fprintf(p->stream, ", bias of %s" BLANK "texels", plot_number(row->bias).text);
     fputs(")", p->stream);
 }
 
@@ -141,11 +141,10 @@ void page_write_depths(const page *p, const page_rows *rows)
         return;
     fprintf(p->stream,
             "<p class=\"small\">%.0f bits of depth instead of %.0f, at the same map and so for more bytes, change the "
-            "wrong "
-            "pixels by %+.4f percentage points in the mean of %d pairs, by %.4f at most (",
+            "wrong pixels by %+.4f percentage points in the mean of %d pairs, by %.4f at most (",
             where->depth_bits, rows->least_depth, sum / count, count, most);
     markup_text(p->stream, where->chain);
     if (where->map > 0)
-        fprintf(p->stream, ", map\xc2\xa0%.0f\xc2\xa0\xc3\x97\xc2\xa0%.0f", where->map, where->map);
+        fprintf(p->stream, ", map" BLANK "%.0f" BLANK "\xc3\x97" BLANK "%.0f", where->map, where->map);
     fputs(").</p>\n", p->stream);
 }

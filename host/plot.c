@@ -97,7 +97,7 @@ plot_text plot_bytes(double bytes)
     for (; unit < 3 && bytes >= 1024; unit++)
         bytes /= 1024;
     plot_text t, number = plot_number(bytes);
-    snprintf(t.text, sizeof t.text, "%.24s%s", number.text, units[unit]);
+    snprintf(t.text, sizeof t.text, "%.30s%s", number.text, units[unit]);
     return t;
 }
 

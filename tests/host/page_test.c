@@ -53,7 +53,7 @@ static void fill(sweep_row *row, uint64_t *state)
 static size_t make_rows(void)
 {
     static const char *const scenes[] = {hostile, "second"};
-    static const char *const chains[] = {"constant", "mixed+virtual", "silhouette msf", "<chain>"};
+    static const char *const chains[] = {"constant", "mixed+virtual", "silhouette/msf", "<chain>"};
     static const struct {
         double map, budget;
     } maps[] = {{64, 0}, {128, 0}, {256, 0}, {120, 32768}, {250, 131072}, {500, 524288}};
@@ -560,7 +560,7 @@ static void refused(page_input *input)
     problem why;
     file_content before = written;
     written = (file_content){0, 0};
-    input->context = (void *)(uintptr_t) "silhouette msf";
+    input->context = (void *)(uintptr_t) "silhouette/msf";
     ok(page_write(sandbox_path("in-page.html"), input, &why) == -1 && strstr(why.text, "expected luck"),
        "a_mask_that_cannot_be_made_ends_it");
     file_read(&written, sandbox_path("in-page.html"), &why);
