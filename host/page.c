@@ -127,9 +127,8 @@ static int write_crops(const page *p, const page_scene *scene, const page_rows *
     else
         fprintf(p->stream, "With a map of %.0f \xc3\x97 %.0f", p->middle_map, p->middle_map);
     fprintf(p->stream,
-            ": the %d \xc3\x97 %d pixels with the most wrong ones, the mask to the left, its difference from the truth "
-            "to the "
-            "right. Chains that err least come first.</p>\n<div class=\"crops\">\n",
+            ": the %d \xc3\x97 %d pixels with the most wrong ones, the mask to the left, to the right its difference "
+            "from the truth. Chains that err least come first.</p>\n<div class=\"crops\">\n",
             PAGE_CROP_WIDTH, PAGE_CROP_HEIGHT);
     for (size_t i = 0; i < rows->count; i++)
         if (shows_crop(p, rows, rows->rows[i]) && write_crop(p, scene, rows->rows[i], why))
@@ -213,10 +212,15 @@ static void write_links(const page *p)
     fputs("<li><a href=\"#about\">columns and chains</a></li></ul></nav>\n", p->stream);
 }
 
+static const char *const costs[] = {
+    [ADVICE_INSTRUCTIONS] =
+        "Instructions are those of a Cortex-M4, by the cost model, over the pixels that see a surface.",
+    [ADVICE_HOST_RATIO] = "Times are of the machine that made this page, over that of the chain constant.",
+    [ADVICE_NO_COST] = "",
+};
+
 static void write_introduction(const page *p, const char *title)
 {
-    static const char by_model[] =
-        "Instructions are those of a Cortex-M4, by the cost model, over the pixels that see a surface.";
     fputs("<h1>", p->stream);
     markup_text(p->stream, title);
     fprintf(p->stream, "</h1>\n<p class=\"small\">gnomon %s, bits version %d.", GN_VERSION, GN_BITS_VERSION);
@@ -226,13 +230,9 @@ static void write_introduction(const page *p, const char *title)
         fputs("</code>", p->stream);
     }
     fputs("</p>\n<p>Shadows of each chain of choices, compared pixel by pixel with the exact truth: how many of the "
-          "pixels that "
-          "see a surface are lit where they should be in shadow, or in shadow where they should be lit. ",
+          "pixels that see a surface are lit where they should be in shadow, or in shadow where they should be lit. ",
           p->stream);
-    if (p->input->cost)
-        markup_text(p->stream, p->input->cost);
-    else if (p->cost == ADVICE_INSTRUCTIONS)
-        fputs(by_model, p->stream);
+    markup_text(p->stream, p->input->cost ? p->input->cost : costs[p->cost]);
     fputs("</p>\n", p->stream);
     write_links(p);
 }
@@ -246,11 +246,13 @@ static void write_key(FILE *s, const char *colour, const char *meaning)
 static void write_reading(const page *p)
 {
     fputs("<h3>How to read the pictures</h3>\n<p class=\"small\">Plots: less is better both ways. The staircase is the "
-          "front: to its "
-          "left and below it there is nothing. Its points are numbered as in the list below the plot. Upright dashed "
-          "lines are "
-          "the budgets. Drawn are all rows of the least depth; of others only those on the front.</p>\n",
+          "front: to its left and below it there is nothing. Its points are numbered as in the list below the plot. "
+          "Upright dashed lines are the budgets. Drawn are all rows of the least depth; of others only those on the "
+          "front.",
           p->stream);
+    if (!page_picture_is_png())
+        fputs(" The pictures are small, as there is no OpenImageIO to compress them.", p->stream);
+    fputs("</p>\n", p->stream);
     page_write_legend(p);
     fputs("<p class=\"small\">Differences:</p>\n<ul class=\"legend\">\n", p->stream);
     write_key(p->stream, "rgb(220,30,30)", "false shadow");

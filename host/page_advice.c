@@ -1,6 +1,7 @@
 #include "page_advice.h"
 
 #include <math.h>
+#include <string.h>
 
 double advice_cost_of(const sweep_row *row, advice_cost cost)
 {
@@ -67,6 +68,17 @@ const sweep_row *advice_avoid(const advice_rows *of, double budget, const sweep_
             worst = row;
     }
     return worst;
+}
+
+const sweep_row *advice_usual(const advice_rows *of, double budget, const sweep_row *best)
+{
+    for (size_t i = 0; i < of->count; i++) {
+        const sweep_row *row = of->rows[i];
+        if (strcmp(row->chain, "constant") == 0 && row->budget == budget && row->depth_bits == best->depth_bits &&
+            row->map > 0 && !isnan(row->error))
+            return row == best ? 0 : row;
+    }
+    return 0;
 }
 
 const sweep_row *advice_without_map(const advice_rows *of)

@@ -29,6 +29,10 @@ const sweep_row *advice_cheaper(const advice_rows *of, double bytes, const sweep
  * though it costs as much as that or more. 0: there is none, or no cost is known. */
 const sweep_row *advice_avoid(const advice_rows *of, double budget, const sweep_row *best);
 
+/* What is usually taken, a constant bias: the chain `constant` with the largest map for this budget at the depth of
+ * `best`. 0: there is none, or it is `best`. */
+const sweep_row *advice_usual(const advice_rows *of, double budget, const sweep_row *best);
+
 /* The row without a map (shadow volumes) that errs least. 0: there is none. */
 const sweep_row *advice_without_map(const advice_rows *of);
 

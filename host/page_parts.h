@@ -33,12 +33,13 @@ typedef struct page_rows {
 plot_text page_error(double error);
 
 /* "at 61 instructions a pixel", "at 1.4 times the time of constant", or nothing. */
-plot_text page_at_cost(const page *p, const sweep_row *row);
+plot_text page_at_cost(const page *p, double cost);
 
-/* "silhouette, msf+rectilinear (map 181 x 181, 16 bits)" */
+/* "silhouette msf+rectilinear (map 181 x 181, 16 bits)", and the bias where it was searched for. */
 void page_write_choice(const page *p, const sweep_row *row);
 
-/* For each budget what to take, what is nearly as good for less, what to avoid; then what there is without a map. */
+/* For each budget what to take, what is nearly as good for less, what to avoid, what a constant bias does; then what
+ * there is without a map. */
 void page_write_advice(const page *p, const page_rows *rows);
 
 /* What 32 bits of depth change against 16 at the same maps. */

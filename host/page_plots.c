@@ -78,7 +78,7 @@ static note describe(const page *p, const sweep_row *row)
     if (row->map > 0)
         length +=
             snprintf(n.text + length, sizeof n.text - (size_t)length, ", %s", plot_bytes(row->resident_bytes).text);
-    snprintf(n.text + length, sizeof n.text - (size_t)length, "%s", page_at_cost(p, row).text);
+    snprintf(n.text + length, sizeof n.text - (size_t)length, "%s", page_at_cost(p, advice_cost_of(row, p->cost)).text);
     return n;
 }
 
@@ -99,9 +99,10 @@ static scatter make_scatter(const page *p, const page_rows *rows, int of_bytes)
         const sweep_row *row = rows->rows[i];
         double x = !of_bytes ? advice_cost_of(row, p->cost) : row->map > 0 ? row->resident_bytes : NAN;
         s.notes[i] = describe(p, row);
-        snprintf(s.names[i], sizeof s.names[i],
-                 row->depth_bits == rows->least_depth || row->map == 0 ? "%.47s" : "%.47s, %.0f bits", row->chain,
-                 row->depth_bits);
+        if (row->depth_bits == rows->least_depth || row->map == 0)
+            snprintf(s.names[i], sizeof s.names[i], "%s", row->chain);
+        else
+            snprintf(s.names[i], sizeof s.names[i], "%s, %.0f bits", row->chain, row->depth_bits);
         s.points[i] =
             (plot_point){x, row->error, shape_of(row->chain), is_parameterised(row), s.names[i], s.notes[i].text};
     }
@@ -120,11 +121,11 @@ static void free_scatter(scatter *s)
 /* Rows of greater depths are drawn where they are on the front. */
 static void hide_depths(scatter *s, const page_rows *rows)
 {
-    for (size_t i = 0, next = 0; i < rows->count; i++) {
-        int on_front = 0;
-        for (next = 0; next < s->front_count; next++)
-            on_front |= s->front[next] == i;
-        if (!on_front && rows->rows[i]->depth_bits != rows->least_depth)
+    for (size_t i = 0; i < rows->count; i++) {
+        int drawn = rows->rows[i]->depth_bits == rows->least_depth;
+        for (size_t k = 0; k < s->front_count; k++)
+            drawn |= s->front[k] == i;
+        if (!drawn)
             s->points[i].x = NAN;
     }
 }
@@ -149,11 +150,24 @@ static size_t line_points(size_t *room, const page_rows *rows, const char *chain
 
 /* ---- the plots -------------------------------------------------------------------------------------------------- */
 
+/* A chain's name, which a line may end in after a slash. */
+static void write_breakable(FILE *stream, const char *name)
+{
+    char piece[64];
+    for (size_t length; *name; name += length) {
+        length = strcspn(name, "/");
+        length += name[length] == '/';
+        snprintf(piece, sizeof piece, "%.*s", (int)length, name);
+        markup_text(stream, piece);
+        fputs(name[length] ? "<wbr>" : "", stream);
+    }
+}
+
 static void write_name_row(const page *p, const sweep_row *row, const char *name, size_t number)
 {
     double cost = advice_cost_of(row, p->cost);
     fprintf(p->stream, "<tr><td>%zu</td><th scope=\"row\">", number);
-    markup_text(p->stream, name);
+    write_breakable(p->stream, name);
     if (row->map > 0)
         fprintf(p->stream, "</th><td>%.0f</td><td>%s</td><td>%s</td>", row->map, plot_number(row->error).text,
                 plot_bytes(row->resident_bytes).text);
@@ -215,7 +229,7 @@ static void write_against_bytes(const page *p, const page_rows *rows, const char
                .mark_count = p->budget_count};
     snprintf(title, sizeof title, "Wrong pixels against resident bytes, %.64s", scene);
     if (volumes) {
-        snprintf(level, sizeof level, "%s, no map", volumes->chain);
+        snprintf(level, sizeof level, "%s, no map: %s", volumes->chain, page_error(volumes->error).text);
         of.level = volumes->error;
         of.level_name = level;
     }

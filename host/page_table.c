@@ -34,18 +34,21 @@ static int holds_something(const page_input *in, const sweep_column *column)
     return 0;
 }
 
+static void take_column(page *p, int number)
+{
+    if (holds_something(p->input, &sweep_columns[number]))
+        p->columns[p->column_count++] = number;
+}
+
 void page_find_columns(page *p)
 {
-    for (int pass = 0; pass < 2; pass++) {
-        for (int i = 0; i < SWEEP_COLUMNS; i++) {
-            const sweep_column *c = &sweep_columns[i];
-            if (is_one_of(c->name, main_columns, MAIN_COLUMNS) == !pass && !is_one_of(c->name, left_out, LEFT_OUT) &&
-                holds_something(p->input, c))
-                p->columns[p->column_count++] = i;
-        }
-        if (!pass)
-            p->main_count = p->column_count;
-    }
+    for (int i = 0; i < MAIN_COLUMNS; i++)
+        take_column(p, (int)(sweep_column_find(main_columns[i], strlen(main_columns[i])) - sweep_columns));
+    p->main_count = p->column_count;
+    for (int i = 0; i < SWEEP_COLUMNS; i++)
+        if (!is_one_of(sweep_columns[i].name, main_columns, MAIN_COLUMNS) &&
+            !is_one_of(sweep_columns[i].name, left_out, LEFT_OUT))
+            take_column(p, i);
 }
 
 /* Underscores as blanks, so that a narrow column's name may be broken. */
@@ -222,8 +225,8 @@ static void write_best_means(const page *p, const mean *chains, size_t count)
             continue;
         fprintf(p->stream, "<li>For %s: <b>", plot_bytes(p->budgets[b]).text);
         markup_text(p->stream, best.row->chain);
-        fprintf(p->stream, "</b>, %.0f bits: %s wrong in the mean</li>\n", best.row->depth_bits,
-                page_error(best.error).text);
+        fprintf(p->stream, "</b>, %.0f bits: %s wrong in the mean%s</li>\n", best.row->depth_bits,
+                page_error(best.error).text, page_at_cost(p, best.cost).text);
     }
     fputs("</ul>\n", p->stream);
 }
@@ -250,8 +253,8 @@ static void write_mean_rows(const page *p, const mean *chains, size_t count)
 static void write_mean_heads(const page *p, const char *what, int sorted)
 {
     for (size_t b = 0; b < p->budget_count; b++) {
-        char name[64];
-        snprintf(name, sizeof name, "%.24s, %.32s", what, plot_bytes(p->budgets[b]).text);
+        char name[80];
+        snprintf(name, sizeof name, "%.30s, %.30s", what, plot_bytes(p->budgets[b]).text);
         write_head(p->stream, name, 1, sorted && b == p->budget_count / 2);
     }
 }

@@ -4,26 +4,33 @@
 #include <math.h>
 #include <string.h>
 
+/* That lines do not end at. */
+#define BLANK "\xc2\xa0"
+
 plot_text page_error(double error)
 {
     plot_text t, number = plot_number(error);
     if (error > 0)
-        snprintf(t.text, sizeof t.text, "%.24s\xc2\xa0%%", number.text);
+        snprintf(t.text, sizeof t.text, "%.30s" BLANK "%%", number.text);
     else
         snprintf(t.text, sizeof t.text, "no pixel");
     return t;
 }
 
-plot_text page_at_cost(const page *p, const sweep_row *row)
+plot_text page_at_cost(const page *p, double cost)
 {
-    static const char *const formats[] = {" at %.12s instructions a pixel", " at %.12s times constant"};
-    plot_text t = {""};
-    double cost = advice_cost_of(row, p->cost);
-    if (!isnan(cost)) {
-        plot_text number = plot_number(cost);
-        snprintf(t.text, sizeof t.text, formats[p->cost == ADVICE_HOST_RATIO], number.text);
-    }
+    plot_text t = {""}, number = plot_number(cost);
+    if (p->cost == ADVICE_INSTRUCTIONS && *number.text)
+        snprintf(t.text, sizeof t.text, " at %.30s instructions a pixel", number.text);
+    else if (*number.text)
+        snprintf(t.text, sizeof t.text, " at %.30s times constant", number.text);
     return t;
+}
+
+/* Was its bias searched for, so that the chain's name does not say it? */
+static int has_own_bias(const sweep_row *row)
+{
+    return strstr(row->chain, "-best") && !isnan(row->bias);
 }
 
 void page_write_choice(const page *p, const sweep_row *row)
@@ -31,18 +38,32 @@ void page_write_choice(const page *p, const sweep_row *row)
     fputs("<b>", p->stream);
     markup_text(p->stream, row->chain);
     fputs("</b>", p->stream);
-    if (row->map > 0)
-        fprintf(p->stream,
-                " (map\xc2\xa0%.0f\xc2\xa0\xc3\x97\xc2\xa0%.0f, %.0f\xc2\xa0"
-                "bits)",
-                row->map, row->map, row->depth_bits);
+    if (row->map == 0)
+        return;
+    fprintf(p->stream, " (map" BLANK "%.0f" BLANK "\xc3\x97" BLANK "%.0f, %.0f" BLANK "bits", row->map, row->map,
+            row->depth_bits);
+    if (has_own_bias(row))
+        fprintf(p->stream, ", bias of %s" BLANK "texels", plot_number(row->bias).text);
+    fputs(")", p->stream);
 }
 
 /* ---- advice ----------------------------------------------------------------------------------------------------- */
 
 static void write_wrong(const page *p, const sweep_row *row)
 {
-    fprintf(p->stream, "%s wrong%s", page_error(row->error).text, page_at_cost(p, row).text);
+    fprintf(p->stream, "%s wrong%s", page_error(row->error).text, page_at_cost(p, advice_cost_of(row, p->cost)).text);
+}
+
+/* A sentence about a row, if there is one. */
+static void write_other(const page *p, const char *start, const sweep_row *row, const char *middle)
+{
+    if (!row)
+        return;
+    fputs(start, p->stream);
+    page_write_choice(p, row);
+    fputs(middle, p->stream);
+    write_wrong(p, row);
+    fputs(".", p->stream);
 }
 
 static void write_budget(const page *p, const advice_rows *of, double budget)
@@ -50,29 +71,14 @@ static void write_budget(const page *p, const advice_rows *of, double budget)
     const sweep_row *best = advice_best(of, budget);
     if (!best)
         return;
-    const sweep_row *cheaper = advice_cheaper(of, budget, best), *avoid = advice_avoid(of, budget, best);
     if (isfinite(budget))
         fprintf(p->stream, "<li>For %s take ", plot_bytes(budget).text);
     else
         fputs("<li>Take ", p->stream);
-    page_write_choice(p, best);
-    fputs(": ", p->stream);
-    write_wrong(p, best);
-    fputs(".", p->stream);
-    if (cheaper) {
-        fputs(" Nearly as good for less: ", p->stream);
-        page_write_choice(p, cheaper);
-        fputs(", ", p->stream);
-        write_wrong(p, cheaper);
-        fputs(".", p->stream);
-    }
-    if (avoid) {
-        fputs(" Avoid ", p->stream);
-        page_write_choice(p, avoid);
-        fputs(": no cheaper, and ", p->stream);
-        write_wrong(p, avoid);
-        fputs(".", p->stream);
-    }
+    write_other(p, "", best, ": ");
+    write_other(p, " Nearly as good for less: ", advice_cheaper(of, budget, best), ", ");
+    write_other(p, " Avoid ", advice_avoid(of, budget, best), ": no cheaper, and ");
+    write_other(p, " To compare: ", advice_usual(of, budget, best), ", ");
     fputs("</li>\n", p->stream);
 }
 
@@ -135,11 +141,10 @@ void page_write_depths(const page *p, const page_rows *rows)
         return;
     fprintf(p->stream,
             "<p class=\"small\">%.0f bits of depth instead of %.0f, at the same map and so for more bytes, change the "
-            "wrong "
-            "pixels by %+.4f percentage points in the mean of %d pairs, by %.4f at most (",
+            "wrong pixels by %+.4f percentage points in the mean of %d pairs, by %.4f at most (",
             where->depth_bits, rows->least_depth, sum / count, count, most);
     markup_text(p->stream, where->chain);
     if (where->map > 0)
-        fprintf(p->stream, ", map\xc2\xa0%.0f\xc2\xa0\xc3\x97\xc2\xa0%.0f", where->map, where->map);
+        fprintf(p->stream, ", map" BLANK "%.0f" BLANK "\xc3\x97" BLANK "%.0f", where->map, where->map);
     fputs(").</p>\n", p->stream);
 }

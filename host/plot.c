@@ -97,7 +97,7 @@ plot_text plot_bytes(double bytes)
     for (; unit < 3 && bytes >= 1024; unit++)
         bytes /= 1024;
     plot_text t, number = plot_number(bytes);
-    snprintf(t.text, sizeof t.text, "%.24s%s", number.text, units[unit]);
+    snprintf(t.text, sizeof t.text, "%.30s%s", number.text, units[unit]);
     return t;
 }
 
@@ -167,10 +167,6 @@ static void make_axes(drawing *d)
     }
     for (size_t i = 0; i < p->mark_count; i++)
         axis_take(&d->x, p->marks[i]);
-    if (p->level_name) {
-        axis_take(&d->y, p->level);
-        d->has_floor |= p->level == 0;
-    }
     axis_finish(&d->x);
     axis_finish(&d->y);
     if (d->has_floor)
@@ -282,13 +278,13 @@ static void write_level(drawing *d)
 {
     if (!d->plot->level_name)
         return;
-    double at = place_y(d, d->plot->level), width = text_width(d->plot->level_name);
-    fprintf(d->stream,
-            "<path class=\"v\" d=\"M%d %.1fH%d\"/><text class=\"n\" x=\"%d\" y=\"%.1f\" text-anchor=\"end\">", LEFT, at,
-            RIGHT, RIGHT - 2, at - 4);
+    double at = fmax(fmin(place_y(d, d->plot->level), BOTTOM), TOP), width = text_width(d->plot->level_name);
+    /* to the left and below a front nothing else is drawn */
+    fprintf(d->stream, "<path class=\"v\" d=\"M%d %.1fH%d\"/><text class=\"n\" x=\"%d\" y=\"%.1f\">", LEFT, at, RIGHT,
+            LEFT + 6, at - 4);
     markup_text(d->stream, d->plot->level_name);
     fputs("</text>\n", d->stream);
-    plot_labels_avoid(&d->labels, (plot_box){RIGHT - 2 - width, at - 4 - LETTER_HEIGHT, RIGHT, at}, PLOT_HEAVY);
+    plot_labels_avoid(&d->labels, (plot_box){LEFT, at - 4 - LETTER_HEIGHT, LEFT + 8 + width, at}, PLOT_HEAVY);
 }
 
 static void write_lines(drawing *d)
@@ -477,7 +473,7 @@ void plot_write_style(FILE *stream)
           ".j{stroke:#000;stroke-width:.6}\n"
           ".plot .y{font-size:11px}.plot .n{paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}\n"
           ".plot .d{font-weight:bold}.plot .x{font-weight:bold}\n"
-          ".r use{stroke-width:.8;opacity:.75}.p use{stroke-width:1.9}\n",
+          ".r use{stroke-width:.8;opacity:.75}.p use{stroke-width:1.9;stroke:#000}\n",
           stream);
     for (int i = 0; i < PLOT_SHAPES; i++)
         fprintf(stream, ".k%d,.k%df{stroke:%s;fill:#fff}.k%df{fill:%s;fill-opacity:.55}\n", i, i, colours[i], i,

@@ -2,8 +2,8 @@
  * it as a staircase, its points named.
  *
  * Readable in black and white: points differ in shape, lines in dashes; colours (those of Okabe and Ito, which differ
- * for every kind of eye) only repeat it. Names are put where they cover neither each other nor the front; a name that
- * finds no such place is left out, its number stays, or is joined to its point by a thin line. An error of 0 has no
+ * for every kind of eye) only repeat it. Names are put where they cover neither each other nor the front, some joined
+ * to their point by a thin line; where there is no such place the point has its number alone. An error of 0 has no
  * place on a logarithmic axis: it lies on a marked floor below it.
  *
  * The drawing has no size of its own but a viewBox, and refers to nothing outside of the document: its shapes and
@@ -56,8 +56,8 @@ typedef struct plot {
     size_t line_count;
     const double *marks; /* upright lines, each with its number */
     size_t mark_count;
-    double level; /* a level line over the whole width; 0: none */
-    const char *level_name;
+    double level;           /* a level line over the whole width; at the border where it is beyond the points */
+    const char *level_name; /* 0: no such line */
 } plot;
 
 /* The points that no other one beats: none is at most as far to the right and at most as high, and less in one of both.
@@ -77,7 +77,7 @@ void plot_write_sample(FILE *stream, plot_shape shape, int filled);
 void plot_write_line_sample(FILE *stream, size_t line);
 
 typedef struct plot_text {
-    char text[32];
+    char text[64];
 } plot_text;
 
 /* Three significant digits or all before the point, no exponent, 0 as 0; nothing for what is no number. */

@@ -68,7 +68,7 @@ static TAP_UNUSED size_t part_count(part p, const char *text)
 /* Is every element closed in its order, are attributes quoted, and does a text hold no bare & or >? */
 static TAP_UNUSED int markup_is_balanced(part p)
 {
-    static const char *const empty[] = {"meta", "link", "img", "input"};
+    static const char *const empty[] = {"meta", "link", "img", "input", "wbr"};
     char open[64][16];
     int depth = 0;
     for (const char *at = p.start; at < p.end;) {
@@ -95,7 +95,7 @@ static TAP_UNUSED int markup_is_balanced(part p)
                 return note("a tag is not closed: <%s", name), 0;
         }
         int is_empty = at[-1] == '/';
-        for (int i = 0; i < 4; i++)
+        for (int i = 0; i < 5; i++)
             is_empty |= strcmp(name, empty[i]) == 0;
         at++;
         if (closes && (!depth || strcmp(open[--depth], name) != 0))

@@ -175,7 +175,7 @@ static void places(void)
     ok(x[0] > 0 && is_near(x[1] - x[0], x[2] - x[1]) && is_near(x[2] - x[1], x[3] - x[2]) && x[3] - x[0] > 200,
        "decades_are_equally_far_apart_from_left_to_right");
     ok(y[0] > 0 && is_near(y[1] - y[0], y[2] - y[1]) && y[1] - y[0] > 60, "and_from_below");
-    ok(y[3] > y[2] + 10 && is_near(tick_place(all, "0", " y=\"") - 4, y[3]), "no_error_lies_on_a_floor_that_reads_0");
+    ok(y[3] > y[2] + 25 && is_near(tick_place(all, "0", " y=\"") - 4, y[3]), "no_error_lies_on_a_floor_that_reads_0");
     ok(is_near(tick_place(all, "100", " x=\""), x[1]) && is_near(tick_place(all, "1000", " x=\""), x[2]) &&
            is_near(tick_place(all, "1", " y=\"") - 4, y[1]) && is_near(tick_place(all, "0.1", " y=\"") - 4, y[2]),
        "ticks_are_where_their_numbers_are");
