@@ -9,6 +9,8 @@ HOST_ARCH ?= -march=native
 OIIO ?= $(shell pkg-config --exists OpenImageIO 2>/dev/null && command -v $(CXX) >/dev/null && echo yes)
 LANES ?= $(shell command -v objcopy >/dev/null && echo yes)
 LANE_CLANG ?= $(shell command -v clang)
+LANES := $(LANES)
+LANE_CLANG := $(LANE_CLANG)
 WERROR ?=
 V ?= 0
 
@@ -380,7 +382,7 @@ test: ## install what is missing, build for host and targets, run everything, co
 test-inputs: $(TEST_INPUTS)
 
 # What shell tests find in their environment.
-export BUILD CC
+export BUILD CC LANES LANE_CLANG
 export GNOMON := $(BUILD)/gnomon
 export EMBEDDED_DEPTHS TARGET_DEPTHS MINIMAL_DEPTHS
 
