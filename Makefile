@@ -136,7 +136,8 @@ $(BUILD)/objects/counted-$(1)/core/%.o: core/%.c host/lane_counter.h host/count_
 	@mkdir -p $$(@D)
 	$(quiet){ $(LANE_CLANG) $(LANE_COUNTED) -DGN_DEPTH_BITS=$(1) -MMD -MP -MT $$@ -MF $$(@:.o=.d) $$< -o $$(@:.o=.ll) && \
 		awk -f host/count_operations.awk $$(@:.o=.ll) >$$(@:.o=.counted.ll) && \
-		$(LANE_CLANG) -w -fPIE -O1 -c $$(@:.o=.counted.ll) -o $$@; } 2>$$(@:.o=.problem) && rm $$(@:.o=.problem) || : >$$@
+		$(LANE_CLANG) -w -fPIE -O1 -c $$(@:.o=.counted.ll) -o $$@; } 2>$$(@:.o=.problem) && \
+		rm $$(@:.o=.problem) || { echo "$$<: not made" >>$$(@:.o=.problem); : >$$@; }
 endef
 define counted_lane
 $(BUILD)/lanes/counted-$(1).o: $(call objects,host-$(1),$(filter-out host/lane.c,$(LANE_HOST))) \
