@@ -9,6 +9,8 @@ HOST_ARCH ?= -march=native
 OIIO ?= $(shell pkg-config --exists OpenImageIO 2>/dev/null && command -v $(CXX) >/dev/null && echo yes)
 LANES ?= $(shell command -v objcopy >/dev/null && echo yes)
 LANE_CLANG ?= $(shell command -v clang)
+LANES := $(LANES)
+LANE_CLANG := $(LANE_CLANG)
 WERROR ?=
 V ?= 0
 
@@ -134,7 +136,8 @@ $(BUILD)/objects/counted-$(1)/core/%.o: core/%.c host/lane_counter.h host/count_
 	@mkdir -p $$(@D)
 	$(quiet){ $(LANE_CLANG) $(LANE_COUNTED) -DGN_DEPTH_BITS=$(1) -MMD -MP -MT $$@ -MF $$(@:.o=.d) $$< -o $$(@:.o=.ll) && \
 		awk -f host/count_operations.awk $$(@:.o=.ll) >$$(@:.o=.counted.ll) && \
-		$(LANE_CLANG) -w -fPIE -O1 -c $$(@:.o=.counted.ll) -o $$@; } 2>$$(@:.o=.problem) && rm $$(@:.o=.problem) || : >$$@
+		$(LANE_CLANG) -w -fPIE -O1 -c $$(@:.o=.counted.ll) -o $$@; } 2>$$(@:.o=.problem) && \
+		rm $$(@:.o=.problem) || { echo "$$<: not made" >>$$(@:.o=.problem); : >$$@; }
 endef
 define counted_lane
 $(BUILD)/lanes/counted-$(1).o: $(call objects,host-$(1),$(filter-out host/lane.c,$(LANE_HOST))) \
@@ -380,7 +383,7 @@ test: ## install what is missing, build for host and targets, run everything, co
 test-inputs: $(TEST_INPUTS)
 
 # What shell tests find in their environment.
-export BUILD CC
+export BUILD CC LANES LANE_CLANG
 export GNOMON := $(BUILD)/gnomon
 export EMBEDDED_DEPTHS TARGET_DEPTHS MINIMAL_DEPTHS
 

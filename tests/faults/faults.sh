@@ -29,7 +29,7 @@ jobs=${JOBS:-$(nproc)}
 compiler=${CC:-cc}
 
 # What a make that started us has set is not for the copies, and a fault may well leave something unused.
-unset MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES BUILD GNOMON GNOMON_CASES WERROR
+unset MAKEFLAGS MFLAGS MAKELEVEL MAKEOVERRIDES BUILD LANES LANE_CLANG GNOMON GNOMON_CASES WERROR
 # A fault may well ask for endless memory.
 # shellcheck disable=SC3045
 ulimit -v 16000000

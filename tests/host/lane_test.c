@@ -1,6 +1,6 @@
 /* Lanes: every core in this program renders what the golden hashes say, the program's own frames are the same with any
  * regions and workers, and a lane that counts its operations renders as the one that does not, and counts what can be
- * worked out. Which lanes there are depends on the build: what is missing is said. */
+ * worked out. */
 #include "frame.h"
 #include "lane.h"
 #include "procedural.h"
@@ -218,11 +218,20 @@ static void check_background(const lane *l, const packed_scene *packed)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
+/* Does make say that it is there? Where the test runs alone nobody does. */
+static int is_promised(int depth_bits, int counts)
+{
+    const char *lanes = getenv("LANES"), *counter = getenv("LANE_CLANG");
+    int others = lanes && strcmp(lanes, "yes") == 0;
+    return counts ? others && counter && *counter : others || depth_bits == GN_DEPTH_BITS;
+}
+
 static void check_lane(int depth_bits, int counts, packed_scene *packed, const char *scene)
 {
     const lane *l = lane_find(depth_bits, counts);
     if (!l) {
-        note("no lane of %d bits%s in this program", depth_bits, counts ? " that counts" : "");
+        ok(!is_promised(depth_bits, counts), "%s, no lane of %d bits%s", scene, depth_bits,
+           counts ? " that counts" : "");
         return;
     }
     for (int i = 0; i < CHAINS; i++)
