@@ -47,11 +47,13 @@ FLAGS_tests := $(FLAGS_host) -Itests -Wno-psabi
 
 DEPTHS := 16 32
 
-# Builds for this machine: the plain library, the simulator, and the two that look for mistakes.
+# Builds for this machine: the plain library, the simulator, and the one that looks for mistakes: assertions of the core,
+# addresses, undefined behaviour.
 library_FLAGS := -O2
 host_FLAGS := -O3 $(HOST_ARCH) -DGN_STATISTICS=1 -DGN_COLOUR_CACHE=4096
-checked_FLAGS := -O2 -g -DGN_CHECKED=1 -DGN_STATISTICS=1
-sanitized_FLAGS := -O1 -g -DGN_STATISTICS=1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+host_TEST_FLAGS := -O2
+checked_FLAGS := -O1 -g1 -DGN_CHECKED=1 -DGN_STATISTICS=1 -fsanitize=address,undefined -fno-sanitize-recover=all \
+	-fno-omit-frame-pointer
 
 # The simulator loads it from its own folder when a picture asks for it (host/oiio.h).
 ifeq ($(OIIO),yes)
@@ -68,12 +70,13 @@ $(BUILD)/flags: always
 	@mkdir -p $(@D)
 	@echo '$(ALL_FLAGS)' | cmp -s - $@ || echo '$(ALL_FLAGS)' >$@
 
-# $(call compile,FOLDER,COMPILER,FLAGS,SETUP_FLAGS): build/objects/FOLDER/core/x.o from core/x.c, and so on.
+# $(call compile,FOLDER,COMPILER,FLAGS,SETUP_FLAGS,TEST_FLAGS): build/objects/FOLDER/core/x.o from core/x.c, and so on.
 define compile
 $(BUILD)/objects/$(1)/%.o: %.c $(BUILD)/flags
 	$$(call say,$(1))
 	@mkdir -p $$(@D)
-	$(quiet)$(2) $$(FLAGS_$$(firstword $$(subst /, ,$$<))) $(3) $$(if $$(filter $$<,$$(SETUP_SOURCES)),$(4)) $(WERROR) $(CFLAGS) -MMD -MP -c $$< -o $$@
+	$(quiet)$(2) $$(FLAGS_$$(firstword $$(subst /, ,$$<))) $(3) $$(if $$(filter $$<,$$(SETUP_SOURCES)),$(4)) \
+		$$(if $$(filter tests/%,$$<),$(5)) $(WERROR) $(CFLAGS) -MMD -MP -c $$< -o $$@
 endef
 
 # $(call objects,FOLDER,SOURCES)
@@ -86,9 +89,16 @@ define archive
 	$(quiet)$(1)ar rcs $@ $^
 endef
 
-HOST_BUILDS := library host checked sanitized
+# Names of objects alone: linked where they lie.
+define thin_archive
+	@mkdir -p $(@D)
+	@rm -f $@
+	$(quiet)ar rcsT $@ $^
+endef
+
+HOST_BUILDS := library host checked
 $(foreach b,$(HOST_BUILDS),$(foreach d,$(DEPTHS),\
-	$(eval $(call compile,$(b)-$(d),$(CC),$($(b)_FLAGS) -DGN_DEPTH_BITS=$(d)))))
+	$(eval $(call compile,$(b)-$(d),$(CC),$($(b)_FLAGS) -DGN_DEPTH_BITS=$(d),,$($(b)_TEST_FLAGS)))))
 
 $(BUILD)/gnomon-oiio.so: host/oiio.cpp host/oiio.h host/image.h $(BUILD)/flags
 	$(call say,oiio)
@@ -120,7 +130,7 @@ $(BUILD)/lanes/$(1).o: $(3)
 	@mkdir -p $$(@D)
 	$(quiet)$(call show_lane_alone,$(2))
 endef
-$(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),\
+$(foreach b,host checked,$(foreach d,$(DEPTHS),\
 	$(eval $(call lane,$(b)-$(d),lane_$(d),$(call objects,$(b)-$(d),$(LANE_HOST) $(CORE))))))
 # Plans as a firmware makes them: the plain library.
 $(foreach d,$(DEPTHS),$(eval $(call lane,firmware-$(d),lane_$(d)_firmware,\
@@ -165,8 +175,7 @@ $(1): $(call objects,$(2),$(HOST) $(CORE)) $(call lanes,$(2))
 endef
 $(eval $(call simulator,$(BUILD)/gnomon,host-16,host))
 $(eval $(call simulator,$(BUILD)/gnomon32,host-32,host))
-$(foreach b,checked sanitized,$(foreach d,$(DEPTHS),\
-	$(eval $(call simulator,$(BUILD)/$(b)-$(d)/gnomon,$(b)-$(d),$(b)))))
+$(foreach d,$(DEPTHS),$(eval $(call simulator,$(BUILD)/checked-$(d)/gnomon,checked-$(d),checked)))
 
 demo: ## install OpenImageIO if it is missing, render the built-in scenes, name the pictures
 	$(quiet)tests/setup.sh demo
@@ -187,8 +196,8 @@ GOLDEN_SCENES := lshape torus2 table pipes pins fence
 GOLDEN_HEADERS := $(GOLDEN_SCENES:%=$(BUILD)/golden/%.h)
 CALIBRATION_SCENES := $(GOLDEN_SCENES) castle colonnade crowd factory room sheets
 CALIBRATION_HEADERS := $(CALIBRATION_SCENES:%=$(BUILD)/golden/%.h)
-# The simulator's own build and the two that look for mistakes take part as well.
-TARGETS := $(EMBEDDED_TARGETS) $(HOSTED_TARGETS) host checked sanitized
+# The simulator's own build and the one that looks for mistakes take part as well.
+TARGETS := $(EMBEDDED_TARGETS) $(HOSTED_TARGETS) host checked
 TARGET_DEPTHS := $(foreach d,$(DEPTHS),$(addsuffix -$(d),$(TARGETS)))
 # The simulator's build trades memory for speed: more than the smallest program has.
 MINIMAL_DEPTHS := $(filter-out host-%,$(TARGET_DEPTHS))
@@ -343,35 +352,38 @@ CORE_TESTS := $(wildcard tests/core/*.c)
 HOST_TESTS := $(wildcard tests/host/*.c)
 # One program of many files. Slower builds run a shorter list of its cases.
 HARD := $(wildcard tests/hard/*.c)
-HARD_BUILDS := host-16 host-32 checked-16 sanitized-16
+HARD_BUILDS := host-16 host-32 checked-16
 # tests/report: tables for docs/, made by hand with the peers.
 SHELL_TESTS := $(filter-out tests/report/%,$(wildcard tests/*/*.sh))
-TEST_BUILDS := $(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),$(b)-$(d)))
-TEST_PROGRAMS := $(foreach b,$(TEST_BUILDS),$(patsubst %.c,$(BUILD)/$(b)/%,$(CORE_TESTS) $(HOST_TESTS))) \
-	$(HARD_BUILDS:%=$(BUILD)/%/tests/hard/hard)
+# What names neither depths nor plans comes out the same for 32 bits.
+DEPTH_TESTS := $(shell grep -lE '\<(GN_DEPTH_BITS|gn_depth|gn_plan|gn_init)\>' $(CORE_TESTS) $(HOST_TESTS))
+TEST_PROGRAMS := $(foreach b,host checked,$(patsubst %.c,$(BUILD)/$(b)-16/%,$(CORE_TESTS) $(HOST_TESTS)) \
+	$(DEPTH_TESTS:%.c=$(BUILD)/$(b)-32/%)) $(HARD_BUILDS:%=$(BUILD)/%/tests/hard/hard)
 
-# $(call test_rules,BUILD-DEPTH,BUILD): tests of the simulator link all of it but its main.
+# $(call test_rules,BUILD-DEPTH,BUILD): tests of the simulator link what they need of all of it but its main.
 define test_rules
-$(BUILD)/$(1)/tests/core/%: $(BUILD)/objects/$(1)/tests/core/%.o $(call objects,$(1),$(CORE))
-	$$(call say,link)
-	@mkdir -p $$(@D)
-	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ -lm -o $$@
-$(BUILD)/$(1)/tests/host/%: $(BUILD)/objects/$(1)/tests/host/%.o \
-		$(call objects,$(1),$(filter-out host/main.c,$(HOST)) $(CORE))
-	$$(call say,link)
-	@mkdir -p $$(@D)
-	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ -lm -ldl -o $$@
-$(BUILD)/$(1)/tests/hard/hard: $(call objects,$(1),$(HARD) $(filter-out host/main.c,$(HOST)) $(CORE))
-	$$(call say,link)
-	@mkdir -p $$(@D)
-	$(quiet)$(CC) $($(2)_FLAGS) -pthread $$^ -lm -ldl -o $$@
+$(BUILD)/$(1)/core.a: $(call objects,$(1),$(CORE))
+	$$(thin_archive)
+$(BUILD)/$(1)/host.a: $(call objects,$(1),$(filter-out host/main.c,$(HOST)))
+	$$(thin_archive)
+$(BUILD)/$(1)/tests/core/%: $(BUILD)/objects/$(1)/tests/core/%.o $(BUILD)/$(1)/core.a
+	$$(call link_test,$(2))
+$(BUILD)/$(1)/tests/host/%: $(BUILD)/objects/$(1)/tests/host/%.o $(BUILD)/$(1)/host.a $(BUILD)/$(1)/core.a
+	$$(call link_test,$(2))
+$(BUILD)/$(1)/tests/hard/hard: $(call objects,$(1),$(HARD)) $(BUILD)/$(1)/host.a $(BUILD)/$(1)/core.a
+	$$(call link_test,$(2))
 endef
-$(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),$(eval $(call test_rules,$(b)-$(d),$(b)))))
+define link_test
+	$(call say,link)
+	@mkdir -p $(@D)
+	$(quiet)$(CC) $($(1)_FLAGS) -pthread $(filter %.o,$^) $(filter %.a,$^) -lm -ldl -o $@
+endef
+$(foreach b,host checked,$(foreach d,$(DEPTHS),$(eval $(call test_rules,$(b)-$(d),$(b)))))
 # Other tests do without lanes: host/lanes.c then finds none.
-$(foreach b,host checked sanitized,$(foreach d,$(DEPTHS),\
+$(foreach b,host checked,$(foreach d,$(DEPTHS),\
 	$(eval $(BUILD)/$(b)-$(d)/tests/host/lane_test: $(call lanes,$(b)-$(d)))))
 
-TEST_INPUTS := all $(TEST_PROGRAMS) $(BUILD)/sanitized-16/gnomon $(TARGET_DEPTHS:%=$(BUILD)/hashes/%.txt) \
+TEST_INPUTS := all $(TEST_PROGRAMS) $(BUILD)/checked-16/gnomon $(TARGET_DEPTHS:%=$(BUILD)/hashes/%.txt) \
 	$(MINIMAL_DEPTHS:%=$(BUILD)/%/minimal_main.txt) $(BENCH_COUNTS) $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) \
 	$(FOOTPRINTS:%=$(BUILD)/cortex-m4-16/footprint/%.txt)
 
@@ -389,9 +401,15 @@ export EMBEDDED_DEPTHS TARGET_DEPTHS MINIMAL_DEPTHS
 
 PROVE = prove --exec '' -j$$(nproc)
 
+# The longest first, so that no processor waits for them at the end.
+LONG_TESTS := tests/faults/faults.sh tests/hard/slow_move_test.sh $(foreach t,hard/hard host/truth_test host/point_truth_test \
+	core/warped_map_test core/fit_depth_test core/silhouette_map_test core/receiver_test core/warp_table_test core/cascade_test,\
+	%/tests/$(t))
+longest_first = $(foreach t,$(LONG_TESTS),$(filter $(t),$(1))) $(filter-out $(LONG_TESTS),$(1))
+
 run-tests: test-inputs
-	$(quiet)$(PROVE) $(TEST_PROGRAMS) $(SHELL_TESTS) 2>&1 | tee $(BUILD)/prove.log
-	$(quiet)GNOMON=$(BUILD)/sanitized-16/gnomon $(PROVE) $(filter tests/host/%,$(SHELL_TESTS)) 2>&1 | tee -a $(BUILD)/prove.log
+	$(quiet)$(PROVE) $(call longest_first,$(TEST_PROGRAMS) $(SHELL_TESTS)) 2>&1 | tee $(BUILD)/prove.log
+	$(quiet)GNOMON=$(BUILD)/checked-16/gnomon $(PROVE) $(filter tests/host/%,$(SHELL_TESTS)) 2>&1 | tee -a $(BUILD)/prove.log
 	@awk -v expected_runs=2 -f tests/summary.awk $(BUILD)/prove.log
 
 # ---- the rest ------------------------------------------------------------------------------------------------------

@@ -1,4 +1,5 @@
-# For shell tests: prints results as TAP. Source it, call check for each promise, end with finish.
+# For shell tests: prints results as TAP. Source it, call check for each promise, end with finish. With TAP_STOP in the
+# environment the first broken promise is the last one tried.
 # shellcheck shell=sh disable=SC2154
 
 tap_count=0
@@ -16,6 +17,7 @@ check() {
         printf '%s\n' "$tap_output" | sed 's/^/#   /'
         echo "#   again: $0"
         tap_failed=1
+        [ -z "${TAP_STOP:-}" ] || exit 1
     fi
 }
 

@@ -2,7 +2,7 @@
  * for each receiver and each reconstruction, under both kinds of light. Maps are disturbed after the light pass, so
  * that texels disagree, tie, and are missed by one unit everywhere; votes, virtual samples, filters, fractions, colours
  * and statistics then have to be the twin's. So on warped maps, with columns and rows of any width. Cases: 80000 views,
- * fewer in slower builds, or GNOMON_CASES. */
+ * or GNOMON_CASES. */
 #include "gn_cascade.h"
 #include "points.h"
 #include "quadrants.h"
@@ -1017,11 +1017,7 @@ static void masks_do_not_depend_on_the_order_of_triangles(uint64_t cases)
 
 int main(int argc, char **argv)
 {
-#if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
-    uint64_t cases = tap_cases(argc, argv, 25000);
-#else
     uint64_t cases = tap_cases(argc, argv, 80000);
-#endif
     edges_are_filtered_by_hand();
     ties_are_lit_at_each_stage();
     open_votes_ask_the_plane();

@@ -4,7 +4,7 @@
  * receiver. The whole map against a slow twin: every edge with every side between two texels, in rationals of 128 bits,
  * the caster's side by where its triangle lies; and the same map whatever the order of triangles, objects, regions and
  * workers, and whatever the surface. Half of all maps are warped: their columns and rows are of any width. Cases: 1000
- * scenes, fewer in slower builds, or GNOMON_CASES. */
+ * scenes, or GNOMON_CASES. */
 #include "gn_cascade.h"
 #include "gn_drawing.h"
 #include "mesh_edges.h"
@@ -997,11 +997,7 @@ static void wrong_edges_are_refused(void)
 
 int main(int argc, char **argv)
 {
-#if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
-    uint64_t cases = tap_cases(argc, argv, 300);
-#else
     uint64_t cases = tap_cases(argc, argv, 1000);
-#endif
     places_are_beyond_the_lines_between_crossings(500 * cases);
     places_beyond_the_cells_are_the_nearest_texels(50 * cases);
     borders_meet_on_sides(cases);

@@ -3,7 +3,7 @@
  * light says, but near borders; and the same whatever the order of triangles, regions and workers. Lone triangles of
  * any attitude: each texel holds the depth of the triangle's own plane, held within the range, and the receiver's plane
  * is that depth, bit for bit. The range, by hand. What the option is worth: thin gaps under a tower. Cases: 300 scenes
- * and 100 times as many triangles, fewer in slower builds, or GNOMON_CASES. */
+ * and 100 times as many triangles, or GNOMON_CASES. */
 #include "gn_cascade.h"
 #include "gn_drawing.h"
 #include "gn_silhouette_map.h"

@@ -2,7 +2,7 @@
  * covers the receiver's plane is the stored depth, bit for bit. Then what follows for lone planes with first depth and
  * lone convex solids with second depth, under a thousand lights and with no bias at all: no pixel that is turned to the
  * light is shadowed, or its shadow has a reason that is worked out here. Cases: 2600000 triangles, a million of which
- * cover texels, and fewer in slower builds, or GNOMON_CASES; a light for every 2600 of them. */
+ * cover texels, or GNOMON_CASES; a light for every 2600 of them. */
 #include "gn_cascade.h"
 #include "points.h"
 #include "scenes.h"
@@ -999,11 +999,7 @@ static void slack_is_what_snapping_asks_for(uint64_t cases)
 
 int main(int argc, char **argv)
 {
-#if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
-    uint64_t cases = tap_cases(argc, argv, 200000);
-#else
     uint64_t cases = tap_cases(argc, argv, 2600000);
-#endif
     planes_equal_stored_depths(cases);
     slack_is_what_snapping_asks_for(cases / 30);
     samples_of_lone_planes_are_what_is_stored_so_less_would_shadow_them(cases / 26000);

@@ -2,8 +2,8 @@
  * integers. Which point: the rule of Sen et al. 2003, 3.1 (an end in the cell; else where the diagonals are crossed, of
  * two crossings the middle) in rationals of 128 bits. All pairs of places where rounding or a border may matter, then
  * segments of every length up to the whole guard band; the same on cells of unequal width and height; and on wide cells
- * of one size, where everything is what it is on cells of one texel. Cases: 400000 random segments, fewer in slower
- * builds, or GNOMON_CASES. */
+ * of one size, where everything is what it is on cells of one texel. Cases: 400000 random segments, or
+ * GNOMON_CASES. */
 #include "gn_unequal_cells.h"
 #include "tap.h"
 
@@ -585,13 +585,8 @@ static void points_by_hand(void)
 
 int main(int argc, char **argv)
 {
-#if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
-    uint64_t cases = tap_cases(argc, argv, 100000);
-    int every = 4;
-#else
     uint64_t cases = tap_cases(argc, argv, 400000);
-    int every = 1;
-#endif
+    int every = TAP_SLOWER > 1 ? 4 : 1;
     points_by_hand();
     every_pair_of_special_places(every);
     random_segments(cases);

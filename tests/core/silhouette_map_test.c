@@ -2,8 +2,7 @@
  * random bytes; where lines cross from cell to cell. Straight edges of any direction, seen from above: no pixel farther
  * from the edge than an offset is rounded may be wrong. The whole map against a slow twin: every edge in every cell,
  * facings in 128 bits, cells by separating axes; and the same map whatever the order of triangles, edges, objects,
- * regions and workers. What is hidden, clipped, without edges, by hand. Cases: 8000, fewer in slower builds, or
- * GNOMON_CASES.
+ * regions and workers. What is hidden, clipped, without edges, by hand. Cases: 8000, or GNOMON_CASES.
  */
 #include "gn_cascade.h"
 #include "gn_clip.h"
@@ -1843,11 +1842,7 @@ static void borders_of_polygons_meet(uint64_t cases)
 
 int main(int argc, char **argv)
 {
-#if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
-    uint64_t cases = tap_cases(argc, argv, 2000);
-#else
     uint64_t cases = tap_cases(argc, argv, 8000);
-#endif
     a_square_by_hand();
     a_hair_behind_is_not_hidden();
     soups_draw_what_parts_texels();

@@ -127,7 +127,7 @@ int main(int argc, char **argv)
     static const uint8_t surfaces[] = {GN_SLOPE, GN_MIXED, GN_CONSTANT, GN_SECOND, GN_DUAL, GN_MIDPOINT};
     uint8_t good[GOOD_SIZE];
     size_t size = make_good(good);
-    uint64_t cases = tap_cases(argc, argv, 20000);
+    uint64_t cases = tap_cases(argc, argv, TAP_SLOWER * 20000);
     fuzz_run("changed_packed_scenes_never_crash_the_reader", good, size, cases);
     for (uint8_t i = 0; i < 7; i++) {
         choose(good, surfaces[i % 6], i % 4, i);

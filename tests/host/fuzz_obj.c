@@ -28,7 +28,7 @@ int main(int argc, char **argv)
     static const char good[] =
         "# a\nv 0 0 0\nv 1 0 .5\nv 0 1 0 1\nv 1e0 -1 2\nvt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2//1 3/1/1 \\\n-1\n";
     fuzz_run("changed_obj_files_never_crash_the_reader", (const uint8_t *)good, sizeof good - 1,
-             tap_cases(argc, argv, 20000));
+             tap_cases(argc, argv, TAP_SLOWER * 20000));
     return tap_done();
 }
 #endif

@@ -25,7 +25,7 @@ int main(int argc, char **argv)
                                "light spot position 0 9 0 target 0 0 0 up 1 0 0 fovy 60 near 2 far 20\n"
                                "mesh in.obj surface open color 1 1 1 scale 2 rotate 0 1 0 90 translate 1 2 3\n";
     fuzz_run("changed_scene_files_never_crash_the_reader", (const uint8_t *)good, sizeof good - 1,
-             tap_cases(argc, argv, 20000));
+             tap_cases(argc, argv, TAP_SLOWER * 20000));
     return tap_done();
 }
 #endif

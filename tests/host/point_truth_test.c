@@ -3,11 +3,7 @@
 #include "core/point_scene.h"
 #include "truth.h"
 
-#if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
-enum { SCENES = 2 };
-#else
-enum { SCENES = 6 };
-#endif
+enum { SCENES = TAP_SLOWER > 1 ? 2 : 6 };
 enum { TEXELS = 2, CLOSE = 128 }; /* beside an edge: so many texels; the map of pictures that are compared with truth */
 
 typedef struct method {

@@ -23,12 +23,6 @@
 #define gn_cut_lids_along_view twin_cut_lids_along_view
 #include "gn_volumes_spot.c"
 
-#if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
-enum { SCENES = 150 };
-#else
-enum { SCENES = 1500 };
-#endif
-
 __extension__ typedef __int128 exact;
 
 enum { MOST_PIXELS = VOLUME_MOST_SIZE * VOLUME_MOST_SIZE, MOST_NUMBERS = VOLUME_MOST_MESHES * VOLUME_MOST_TRIANGLES };
@@ -661,7 +655,7 @@ static void run_scene(tally *t, uint64_t seed)
 int main(int argc, char **argv)
 {
     tally t = {0};
-    uint64_t count = tap_cases(argc, argv, SCENES), first = argc > 2 ? strtoull(argv[2], 0, 10) : 1;
+    uint64_t count = tap_cases(argc, argv, 1500), first = argc > 2 ? strtoull(argv[2], 0, 10) : 1;
     double start = frame_clock();
     for (uint64_t seed = first; seed < first + count; seed++)
         run_scene(&t, seed);

@@ -16,11 +16,7 @@
 #include "truth_trace.h"
 #include "volume_scenes.h"
 
-#if defined __SANITIZE_ADDRESS__ || (defined GN_CHECKED && GN_CHECKED)
-enum { SCENES = 600, SHRINK = 4 };
-#else
-enum { SCENES = 4000, SHRINK = 1 };
-#endif
+enum { SHRINK = TAP_SLOWER > 1 ? 4 : 1 };
 
 static int render(frame *f, packed_scene *packed, const gn_settings *settings, problem *why)
 {
@@ -233,7 +229,7 @@ static void built_in_scenes(void)
 
 int main(int argc, char **argv)
 {
-    uint64_t count = tap_cases(argc, argv, SCENES);
+    uint64_t count = tap_cases(argc, argv, 4000);
     random_scenes(argc > 2 ? strtoull(argv[2], 0, 10) : 1, count);
     if (argc <= 2)
         built_in_scenes();
