@@ -57,6 +57,7 @@ typedef struct job {
     sweep_journal journal;
     char *csv, *json, *page;
     char *command; /* as typed */
+    int stopped;   /* by a signal: its number; else 0 */
     problem why;
 } job;
 
@@ -135,7 +136,8 @@ static int sweep(job *j)
     sweep_catch_signals();
     if (measure(j))
         return -1;
-    if (!sweep_interrupted())
+    j->stopped = sweep_interrupted();
+    if (!j->stopped)
         return report(j);
     fprintf(stderr, "gnomon: stopped with %zu of %zu rows in %s; the same command goes on from there\n",
             count_rows(&j->plan, 1), count_rows(&j->plan, 0), j->csv);
@@ -181,5 +183,5 @@ int command_sweep(int argc, char **argv)
     if (result)
         fprintf(stderr, "%s\n", j.why.text);
     release(&j);
-    return result ? EXIT_BAD_INPUT : sweep_interrupted() ? OF_SIGNALS + sweep_interrupted() : EXIT_DONE;
+    return result ? EXIT_BAD_INPUT : j.stopped ? OF_SIGNALS + j.stopped : EXIT_DONE;
 }

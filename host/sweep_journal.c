@@ -9,8 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* ---- what is there already ------------------------------------------------------------------------------------------
- */
+/* ---- what is there already ------------------------------------------------------------------------------------- */
 
 static sweep_cell *find_cell(sweep_plan *plan, const sweep_row *row)
 {
@@ -84,8 +83,7 @@ static int take_rows(sweep_plan *plan, size_t *taken, const char *path, problem 
     return result;
 }
 
-/* ---- opening --------------------------------------------------------------------------------------------------------
- */
+/* ---- opening --------------------------------------------------------------------------------------------------- */
 
 /* The names as this program writes them; free() them. */
 static char *first_line(void)
@@ -113,8 +111,7 @@ static int check_file(const char *path, size_t *size, problem *why)
                             "has other columns than this version of gnomon sweep writes; expected a folder without a "
                             "sweep of another version");
     free(names);
-    if (content.bytes)
-        free(content.bytes);
+    free(content.bytes);
     return result;
 }
 
@@ -143,8 +140,7 @@ int sweep_journal_open(sweep_journal *journal, sweep_plan *plan, size_t *taken, 
     return fflush(journal->stream) ? fail(path, why) : 0;
 }
 
-/* ---- writing --------------------------------------------------------------------------------------------------------
- */
+/* ---- writing --------------------------------------------------------------------------------------------------- */
 
 int sweep_journal_append(sweep_journal *journal, sweep_plan *plan, size_t cell, problem *why)
 {

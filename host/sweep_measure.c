@@ -18,8 +18,7 @@ typedef struct measurement {
     problem *why;
 } measurement;
 
-/* ---- errors --------------------------------------------------------------------------------------------------------
- */
+/* ---- errors ---------------------------------------------------------------------------------------------------- */
 
 static comparison compare(const sweep_scene *scene, const uint8_t *mask)
 {
@@ -43,8 +42,7 @@ static void fill_errors(sweep_row *row, const comparison *c)
     row->mean_absolute_error = 100 * f->mean_absolute_error;
 }
 
-/* ---- the search for the best bias -----------------------------------------------------------------------------------
- */
+/* ---- the search for the best bias ------------------------------------------------------------------------------ */
 
 /* Wrong pixels alone: no distances. */
 static double count_wrong(const sweep_scene *scene, const uint8_t *mask)
@@ -80,8 +78,7 @@ static int choose_bias(measurement *m)
     return 0;
 }
 
-/* ---- what it takes
- * --------------------------------------------------------------------------------------------------- */
+/* ---- what it takes --------------------------------------------------------------------------------------------- */
 
 static void fill_bytes(sweep_row *row, const gn_plan *plan)
 {
@@ -186,15 +183,15 @@ static int fill_cost(sweep_row *row, const measurement *m, const lane_frame *f)
     return fill_instructions(row, m, f, (const uint64_t(*)[LANE_OPERATIONS])counted.operations);
 }
 
-/* ---- host time
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- host time ------------------------------------------------------------------------------------------------- */
 
 /* Shadow volumes have no map to be compared at. */
 enum { MAP_FOR_VOLUMES = 512 };
 
-/* Short frames are disturbed more, and cost less to repeat. */
-enum { LEAST_ROUNDS = 3, MOST_ROUNDS = 12 };
-static const double enough_seconds = 0.12;
+/* A round is so many frames of the one and of the other, of which the first finds its memory untouched. Short frames
+ * are disturbed more, and cost less to repeat. */
+enum { FRAMES = 2, MOST_ROUNDS = 6 };
+static const double enough_seconds = 0.25;
 
 static double seconds_of(const lane_frame *f)
 {
@@ -207,10 +204,10 @@ static double seconds_of(const lane_frame *f)
 static int take_time(const measurement *m, const char *const values[], double *least, double *sum)
 {
     lane_frame f;
-    if (lane_find(m->cell->depth_bits, 0)->measure(&f, &m->scene->packed, values, 1, m->why))
+    if (lane_find(m->cell->depth_bits, 0)->measure(&f, &m->scene->packed, values, FRAMES, m->why))
         return -1;
     *least = fmin(*least, seconds_of(&f));
-    *sum += seconds_of(&f);
+    *sum += FRAMES * seconds_of(&f);
     return 0;
 }
 
@@ -224,15 +221,14 @@ static int fill_time(sweep_row *row, const measurement *m)
         return 0;
     }
     sweep_choice_make(&reference, &sweep_chains[0], cell->map ? cell->map : MAP_FOR_VOLUMES, m->image_text, 0);
-    for (int round = 0; round < LEAST_ROUNDS || (round < MOST_ROUNDS && sum < enough_seconds); round++)
+    for (int round = 0; round < MOST_ROUNDS && sum < enough_seconds; round++)
         if (take_time(m, reference.values, &constant, &sum) || take_time(m, m->choice.values, &own, &sum))
             return -1;
     row->host_ratio = own / constant;
     return 0;
 }
 
-/* ---- all of it
- * --------------------------------------------------------------------------------------------------------- */
+/* ---- all of it ------------------------------------------------------------------------------------------------- */
 
 static void fill_names(sweep_row *row, const measurement *m)
 {

@@ -16,10 +16,11 @@ typedef struct page_job {
     int scene_count;
 } page_job;
 
-/* As the scene looks, by a map large enough not to be seen. */
-static int take_picture(image *picture, const sweep_scene *scene, const char *size, int workers, problem *why)
+/* As the scene looks, by a map large enough not to be seen. 0, or -1: no such picture can be made. */
+static int take_picture(image *picture, const sweep_scene *scene, const char *size, int workers)
 {
     sweep_choice choice;
+    problem unused, *why = &unused;
     gn_settings settings;
     frame f = {.context = 0};
     packed_scene packed = scene->packed; /* edges are there, so nothing of it is written */
@@ -44,16 +45,14 @@ static uint8_t *take_mask(void *context, const page_scene *shown, const sweep_ro
     return sweep_mask(&j->scenes[shown - j->shown], row, j->plan->image_text, why);
 }
 
-static int show_scenes(page_job *j, int workers, problem *why)
+static void show_scenes(page_job *j, int workers)
 {
     for (int i = 0; i < j->scene_count; i++) {
         const sweep_scene *s = &j->scenes[i];
-        if (take_picture(&j->pictures[i], s, j->plan->image_text, workers, why))
-            return -1;
+        int none = take_picture(&j->pictures[i], s, j->plan->image_text, workers);
         j->truths[i] = (image){s->width, s->height, 1, IMAGE_U8, s->truth};
-        j->shown[i] = (page_scene){s->name, &j->pictures[i], &j->truths[i]};
+        j->shown[i] = (page_scene){s->name, none ? 0 : &j->pictures[i], &j->truths[i]};
     }
-    return 0;
 }
 
 static int write_rows(page_job *j, const char *path, const char *command, problem *why)
@@ -83,7 +82,8 @@ int sweep_page_write(const char *path, const sweep_plan *plan, const sweep_scene
                   .pictures = memory_take(count, sizeof *j.pictures),
                   .truths = memory_take(count, sizeof *j.truths),
                   .scene_count = scene_count};
-    int result = show_scenes(&j, workers, why) || write_rows(&j, path, command, why) ? -1 : 0;
+    show_scenes(&j, workers);
+    int result = write_rows(&j, path, command, why);
     for (int i = 0; i < scene_count; i++)
         image_free(&j.pictures[i]);
     free(j.pictures);

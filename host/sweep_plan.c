@@ -24,7 +24,7 @@ void sweep_cell_leave_out(sweep_cell *cell, const char *reason)
     memcpy(cell->reason, reason, strlen(reason));
 }
 
-/* ---- the largest map of a budget --------------------------------------------------------------------------------- */
+/* ---- the largest map of a budget ------------------------------------------------------------------------------- */
 
 enum { SMALLEST_MAP = 2 };
 
@@ -102,8 +102,7 @@ static void fit_map(sweep_cell *cell, const char *image_text)
     sweep_cell_leave_out(cell, reason);
 }
 
-/* ---- cells --------------------------------------------------------------------------------------------------------
- */
+/* ---- cells ----------------------------------------------------------------------------------------------------- */
 
 static stage_hash hash_text(stage_hash hash, const char *string)
 {
@@ -183,8 +182,7 @@ static void add_scene(sweep_plan *plan, const sweep_request *r, const sweep_scen
             add_cell(plan, scene, r->chains[i], r->depths[0], 0, 0);
 }
 
-/* ---- checks -------------------------------------------------------------------------------------------------------
- */
+/* ---- checks ---------------------------------------------------------------------------------------------------- */
 
 static int check_budget(const sweep_plan *plan, long budget, problem *why)
 {

@@ -7,8 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- JSON
- * ------------------------------------------------------------------------------------------------------------ */
+/* ---- JSON ------------------------------------------------------------------------------------------------------ */
 
 static const char *light_word(const sweep_scene *s)
 {
@@ -88,8 +87,7 @@ int sweep_report_json(const sweep_plan *plan, const sweep_scene *scenes, int sce
     return file_output_finish(&output, why);
 }
 
-/* ---- lines
- * ------------------------------------------------------------------------------------------------------------ */
+/* ---- lines ----------------------------------------------------------------------------------------------------- */
 
 static const sweep_cell *best_of(const sweep_plan *plan, const sweep_scene *scene, long budget)
 {

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- lists of numbers -------------------------------------------------------------------------------------------- */
+/* ---- lists of numbers ------------------------------------------------------------------------------------------ */
 
 typedef struct list {
     const char *name; /* of the option */
@@ -72,7 +72,7 @@ static int read_list(const list *l, const char *value, problem *why)
     }
 }
 
-/* ---- the other lists --------------------------------------------------------------------------------------------- */
+/* ---- the other lists ------------------------------------------------------------------------------------------- */
 
 static int read_depths(sweep_request *r, const char *value, problem *why)
 {
@@ -121,7 +121,7 @@ static int read_chains(sweep_request *r, const char *value, problem *why)
     return 0;
 }
 
-/* ---- all of it --------------------------------------------------------------------------------------------------- */
+/* ---- all of it ------------------------------------------------------------------------------------------------- */
 
 static void use_defaults(sweep_request *r)
 {

@@ -21,7 +21,7 @@ char *sweep_path(const char *folder, const char *name, const char *end)
     return path;
 }
 
-/* ---- names ------------------------------------------------------------------------------------------------------ */
+/* ---- names ----------------------------------------------------------------------------------------------------- */
 
 static int is_taken(const sweep_scene *scenes, int count, const char *name)
 {
@@ -59,7 +59,7 @@ static int check_distinct(const sweep_scene *scenes, int index, problem *why)
     return 0;
 }
 
-/* ---- the hash --------------------------------------------------------------------------------------------------- */
+/* ---- the hash -------------------------------------------------------------------------------------------------- */
 
 static stage_hash hash_integers(stage_hash hash, const int32_t *numbers, size_t count)
 {
@@ -120,7 +120,7 @@ static uint64_t hash_scene(const sweep_scene *s)
     return hash;
 }
 
-/* ---- reading ---------------------------------------------------------------------------------------------------- */
+/* ---- reading --------------------------------------------------------------------------------------------------- */
 
 static int read_scene(sweep_scene *s, const long size[2], problem *why)
 {
@@ -151,7 +151,7 @@ void sweep_scenes_free(sweep_scene *scenes, int count)
     }
 }
 
-/* ---- the truth -------------------------------------------------------------------------------------------------- */
+/* ---- the truth ------------------------------------------------------------------------------------------------- */
 
 /* The head of a PGM of 8 bits, which says in a comment what it is the truth of. */
 static void write_head(const sweep_scene *s, char head[100])

@@ -9,8 +9,7 @@
 
 enum { MOST_WORKERS = 64 };
 
-/* ---- signals --------------------------------------------------------------------------------------------------------
- */
+/* ---- signals --------------------------------------------------------------------------------------------------- */
 
 static volatile sig_atomic_t caught;
 
@@ -37,8 +36,7 @@ int sweep_interrupted(void)
     return caught;
 }
 
-/* ---- how much work a row is
- * ------------------------------------------------------------------------------------------ */
+/* ---- how much work a row is ------------------------------------------------------------------------------------ */
 
 /* Triangles set up, texels, pixels: about as long each. */
 static double work_of(const sweep_cell *cell)
@@ -54,8 +52,7 @@ static int is_to_do(const sweep_plan *plan, size_t i)
     return !plan->cells[i].is_done && !plan->cells[i].reason && plan->cells[i].twin == i;
 }
 
-/* ---- the queue
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- the queue ------------------------------------------------------------------------------------------------- */
 
 typedef struct queue {
     sweep_plan *plan;
