@@ -33,7 +33,8 @@ typedef enum lane_pass { LANE_VIEW, LANE_LIGHT, LANE_CAMERA, LANE_PASSES } lane_
 
 typedef struct lane_frame {
     /* Of the settings with one worker, RGB565 and no mask, by a core without statistics and with planes and colours for
-     * 64 triangles (GN_COLOUR_CACHE): a firmware's, but for pointers of this machine's size. */
+     * 64 triangles (GN_COLOUR_CACHE): a firmware's, but for pointers of this machine's size (of 64 bits: 168 to 450
+     * bytes more than of 32). */
     gn_plan plan;
     /* Of one frame of these regions. A lane that counts operations does not count these: zeros but for map_bytes and
      * silhouette_edges. */

@@ -12,9 +12,10 @@
 
 /* ---- scenes and chains ------------------------------------------------------------------------------------------- */
 
-/* Rendered as the golden firmware does (port/methods.h); golden: its name there, or 0. */
+/* Rendered as the golden firmware does (port/methods.h); golden: its name there, or 0. lamp: by a point light. */
 typedef struct chain {
-    const char *golden, *method, *receiver, *reconstruct, *parameterise, *smoothing, *bias, *layers;
+    const char *golden, *method, *receiver, *reconstruct, *parameterise, *smoothing, *bias, *layers, *faces;
+    int lamp;
 } chain;
 
 static const chain chains[] = {
@@ -31,9 +32,11 @@ static const chain chains[] = {
     {.method = "constant"},
     {.method = "slope", .reconstruct = "jitter4x4", .parameterise = "rectilinear-distance", .smoothing = "2"},
     {.method = "mixed", .receiver = "virtual", .reconstruct = "crossing"},
+    {.method = "silhouette", .lamp = 1},
+    {.method = "mixed", .reconstruct = "pcf3", .faces = "one", .lamp = 1},
 };
 
-enum { CHAINS = sizeof chains / sizeof *chains };
+enum { CHAINS = sizeof chains / sizeof *chains, SILHOUETTE = 6, CONSTANT = 10, MAP = 128 };
 
 static void values_of(const char *values[RENDER_OPTION_COUNT], const chain *c)
 {
@@ -45,6 +48,7 @@ static void values_of(const char *values[RENDER_OPTION_COUNT], const chain *c)
     values[RENDER_SMOOTHING] = c->smoothing;
     values[RENDER_BIAS] = c->bias;
     values[RENDER_LAYERS] = c->layers;
+    values[RENDER_FACES] = c->faces;
     values[RENDER_SIZE] = "160x120";
     if (strcmp(c->method, "volumes") != 0)
         values[RENDER_MAP] = "128";
@@ -113,33 +117,65 @@ static int render_own(frame *f, packed_scene *packed, const char *const values[]
                : 0;
 }
 
-static int is_own(const lane_frame *got, packed_scene *packed, const char *const values[])
+/* Of the program's own core, or of the lane of that depth that does not count: that lane itself has neither. */
+static int is_other(const lane *l, const lane_frame *got, packed_scene *packed, const char *const values[])
 {
     frame f = {.context = 0};
+    lane_frame plain = {.mask = 0};
+    const lane *other = lane_find(l->depth_bits, 0);
+    size_t size = (size_t)got->width * got->height;
     problem why;
-    int same =
-        render_own(&f, packed, values, &why) == 0 && memcmp(got->mask, f.mask, (size_t)got->width * got->height) == 0;
+    int same = other == l;
+    if (l->depth_bits == GN_DEPTH_BITS)
+        same = render_own(&f, packed, values, &why) == 0 && memcmp(got->mask, f.mask, size) == 0;
+    else if (other && other != l)
+        same = other->render(&plain, packed, values, 0, &why) == 0 && memcmp(got->mask, plain.mask, size) == 0;
     frame_close(&f);
+    lane_frame_free(&plain);
     return same;
 }
 
-static void check_chain(const lane *l, packed_scene *packed, const char *scene, const chain *c)
+/* A map of 128 x 128 texels, six of them, or none. */
+static int plan_is_good(const lane *l, const lane_frame *got, const packed_scene *packed, const chain *c,
+                        const char *const values[])
 {
+    size_t maps = strcmp(c->method, "volumes") == 0 ? 0 : c->lamp && !c->faces ? 6 : 1;
+    gn_plan plan;
+    problem why;
+    return l->plan(&plan, packed, values, &why) == 0 && plan.bytes == got->plan.bytes &&
+           plan.map_bytes == maps * MAP * MAP * (size_t)l->depth_bits / 8;
+}
+
+/* A lamp beside the camera. */
+static void put_lamp(packed_scene *packed)
+{
+    const int32_t *eye = packed->camera.eye;
+    int32_t place[3] = {-eye[0] / 2, eye[1], eye[2] / 2};
+    gn_point_light(&packed->light, place, GN_WORLD_MAX / 256, 4 * GN_WORLD_MAX);
+    packed->settings.faces = &gn_six_faces;
+}
+
+static void check_chain(const lane *l, const packed_scene *scene, const char *name, const chain *c)
+{
+    packed_scene own = *scene, *packed = &own;
     const char *values[RENDER_OPTION_COUNT];
     lane_frame got = {.mask = 0};
     problem why = {""};
     values_of(values, c);
+    if (c->lamp)
+        put_lamp(packed);
     int done = l->render(&got, packed, values, 2, &why) == 0;
     if (!done)
         note("%s", why.text);
     uint32_t shadowed = done ? pixels_between(&got, 0, 126) : 0, lit = done ? pixels_between(&got, 127, 254) : 0;
-    int golden = done && (!c->golden || hash_of(&got) == golden_mask(l->depth_bits, scene, c->golden));
-    int own = done && (l->depth_bits != GN_DEPTH_BITS || is_own(&got, packed, values));
+    int golden = done && (!c->golden || hash_of(&got) == golden_mask(l->depth_bits, name, c->golden));
+    int other = done && is_other(l, &got, packed, values);
+    int plan = done && plan_is_good(l, &got, packed, c, values);
     int counted = done && (l->counts || got.statistics.pixels_shaded == shadowed + lit);
-    if (!ok(golden && own && counted && shadowed > 100 && lit > 100, "%s, lane of %d bits%s, %s", scene, l->depth_bits,
-            l->counts ? " that counts" : "", got.settings))
-        note("as the golden hash: %d; as the program's own: %d; pixels counted: %d; %u shadowed, %u lit", golden, own,
-             counted, (unsigned)shadowed, (unsigned)lit);
+    if (!ok(golden && other && plan && counted && shadowed > 100 && lit > 100, "%s, lane of %d bits%s, %s%s", name,
+            l->depth_bits, l->counts ? " that counts" : "", c->lamp ? "lamp, " : "", got.settings))
+        note("as the golden hash: %d; as another core: %d; plan: %d; pixels counted: %d; %u shadowed, %u lit", golden,
+             other, plan, counted, (unsigned)shadowed, (unsigned)lit);
     lane_frame_free(&got);
 }
 
@@ -166,7 +202,7 @@ static void check_threads(const lane *l, const packed_scene *packed)
 {
     counting jobs[3] = {{.of = l, .packed = packed}};
     pthread_t thread;
-    values_of(jobs[0].values, &chains[6]);
+    values_of(jobs[0].values, &chains[SILHOUETTE]);
     jobs[1] = jobs[2] = jobs[0];
     count(&jobs[0]);
     int started = pthread_create(&thread, 0, count, &jobs[1]) == 0;
@@ -190,7 +226,7 @@ static int count_background(lane_frame *f, const lane *l, const packed_scene *pa
         away.camera.right[i] = -packed->camera.right[i];
         away.camera.forward[i] = -packed->camera.forward[i];
     }
-    values_of(job.values, &chains[CHAINS - 3]);
+    values_of(job.values, &chains[CONSTANT]);
     job.values[RENDER_SIZE] = size;
     count(&job);
     *f = job.frame;
@@ -216,6 +252,23 @@ static void check_background(const lane *l, const packed_scene *packed)
     lane_frame_free(&high);
 }
 
+/* ---- plans --------------------------------------------------------------------------------------------------------
+ */
+
+/* A receiver with planes needs 40 bytes an entry of GN_COLOUR_CACHE (gnomon.h), and a firmware has 64 of them. */
+static void check_plan(const lane *l, const packed_scene *packed)
+{
+    gn_plan point = {0}, planes = {0};
+    const char *values[RENDER_OPTION_COUNT];
+    problem why;
+    values_of(values, &(chain){.method = "dual", .receiver = "point"});
+    int result = l->plan(&point, packed, values, &why);
+    values_of(values, &(chain){.method = "dual", .receiver = "virtual"});
+    result |= l->plan(&planes, packed, values, &why);
+    if (!ok(!result && planes.camera_bytes - point.camera_bytes == 64 * 40, "plans_are_a_firmware's_%d", l->depth_bits))
+        note("%zu bytes, %zu with planes", point.camera_bytes, planes.camera_bytes);
+}
+
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* Does make say that it is there? Where the test runs alone nobody does. */
@@ -236,6 +289,8 @@ static void check_lane(int depth_bits, int counts, packed_scene *packed, const c
     }
     for (int i = 0; i < CHAINS; i++)
         check_chain(l, packed, scene, &chains[i]);
+    if (lane_of_firmware(depth_bits))
+        check_plan(l, packed);
     if (counts) {
         check_threads(l, packed);
         check_background(l, packed);
