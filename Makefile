@@ -65,7 +65,8 @@ endif
 # ---- objects -------------------------------------------------------------------------------------------------------
 
 # Everything is compiled anew when a flag changes.
-ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(SETUP_SOURCES) $(SMALL) $(FAST) $(LANES) $(LANE_CLANG)
+ALL_FLAGS = $(CC) $(CFLAGS) $(FLAGS_core) $(FLAGS_host) $(host_FLAGS) $(SETUP_SOURCES) $(SMALL) $(FAST) \
+	$(LANES) $(LANE_CLANG)
 $(BUILD)/flags: always
 	@mkdir -p $(@D)
 	@echo '$(ALL_FLAGS)' | cmp -s - $@ || echo '$(ALL_FLAGS)' >$@
@@ -144,7 +145,8 @@ define counted_core
 $(BUILD)/objects/counted-$(1)/core/%.o: core/%.c host/lane_counter.h host/count_operations.awk $(BUILD)/flags
 	$$(call say,counted-$(1))
 	@mkdir -p $$(@D)
-	$(quiet){ $(LANE_CLANG) $(LANE_COUNTED) -DGN_DEPTH_BITS=$(1) -MMD -MP -MT $$@ -MF $$(@:.o=.d) $$< -o $$(@:.o=.ll) && \
+	$(quiet){ $(LANE_CLANG) $(LANE_COUNTED) -DGN_DEPTH_BITS=$(1) \
+			-MMD -MP -MT $$@ -MF $$(@:.o=.d) $$< -o $$(@:.o=.ll) && \
 		awk -f host/count_operations.awk $$(@:.o=.ll) >$$(@:.o=.counted.ll) && \
 		$(LANE_CLANG) -w -fPIE -O1 -c $$(@:.o=.counted.ll) -o $$@; } 2>$$(@:.o=.problem) && \
 		rm $$(@:.o=.problem) || { echo "$$<: not made" >>$$(@:.o=.problem); : >$$@; }

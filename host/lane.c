@@ -17,6 +17,7 @@
 #if LANE_COUNTS
 #include "lane_counter.h"
 __thread uint64_t lane_counters[LANE_COUNTERS];
+enum { COUNTERS_ARE_KINDS = 1 / (LANE_COUNTERS == (int)LANE_OPERATIONS) }; /* no constant where they are not */
 #endif
 
 /* ---- settings -------------------------------------------------------------------------------------------------- */

@@ -15,9 +15,9 @@
 #include "packed.h"
 
 /* In a pass, as the compiler's intermediate code has them, whatever their width: multiplies, and divisions by a
- * constant; divisions and remainders by anything else; additions and subtractions; words read from and written to
- * memory, with local arrays, without other variables; shifts, logic, comparisons, selections, jumps and calls.
- * Addresses and conversions are none. */
+ * constant; divisions and remainders by anything else; additions and subtractions; reads from and writes to memory,
+ * local arrays included, of a block that is copied its words of 32 bits; shifts, logic, comparisons, selections, jumps
+ * and calls. Addresses, conversions and variables that need no memory are none. */
 typedef enum lane_operation {
     LANE_MULTIPLY,
     LANE_DIVIDE,
