@@ -91,7 +91,7 @@ join parameterisations-grids 3 grid-dv+rtwc/plane$part grid-msf+rtwc/plane$part 
     cp "$work/few-rtw/curves.svg" "$folder/papers-warp-curves.svg"
     look rows castle "dv+notw/$surface" --map 24
     cp "$work/rows/rows.svg" "$folder/papers-warp-rows.svg"
-    join papers-warp-grid 1 few-rtw/plane@330x270+35+90
+    join papers-warp-grid 1 few-rtw/plane@320x285+25+65
     look few-notw castle "dv+notw/$surface" --map 64
     join papers-warp-unused 2 few-rtw/unused few-notw/unused
     join papers-warp-functions 4 castle-dv+notw/before castle-rough/functions castle-dv+notw/functions castle-dv+notw/rows \

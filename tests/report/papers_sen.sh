@@ -229,3 +229,12 @@ while [ $round -lt "${ROUNDS:-3}" ]; do
 done | awk '{ time = $1; sub(/^[^ ]* /, "") }
     !($0 in least) || time < least[$0] { least[$0] = time }
     END { for (name in least) print name ": " least[name] }' | sort
+
+start_counting || exit 0
+echo "== table 1: map 512, million instructions: all"
+for scene in crowd castle; do
+    for how in "$standard --map 512" "--method volumes" "--method silhouette --map 512"; do
+        # shellcheck disable=SC2086 # words
+        instructions "$scene $how" fitted=0 rounds=0 -- "$scene.scene" $how
+    done
+done

@@ -81,6 +81,7 @@ mean() {
     for scene in $cases; do
         shot $scene $scene $midpoint --cull none
         shot $scene $scene $midpoint --cull back
+        shot $scene $scene --method dual --layers two --cull none --bias 2t
         shot $scene $scene --method dual --bias 2t
         shot $scene $scene --method dual --bias 8t
         shot $scene $scene --method constant --bias 2t

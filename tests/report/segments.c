@@ -228,7 +228,7 @@ static void draw_case(FILE *out, int number, const double from[2], const double 
     fprintf(out, "<text x=\"%.0f\" y=\"%.0f\">%c</text>\n", left - 24, top + SIDE + 24, 'A' + number);
     printf("figure 4, %c: ", 'A' + number);
     if (!visited[4]) {
-        printf("not visited\n");
+        printf("not visited; %s its quadrangle\n", is_in_quadrangle(&e, 1, 1) ? "in" : "not in");
         return;
     }
     gn_segment_point p = point_in(&e, 3, 1, 1);
@@ -240,7 +240,7 @@ static void draw_case(FILE *out, int number, const double from[2], const double 
 static void draw_cases(FILE *out)
 {
     static const double ends[4][2][2] = {
-        {{1.65, 1.35}, {.8, 2.1}}, {{.8, 1.375}, {1.625, .8}}, {{.8, 1.3}, {2.2, 1.8}}, {{1.85, .75}, {2.3, 1.2}}};
+        {{1.65, 1.35}, {.8, 2.1}}, {{.8, 1.375}, {1.625, .8}}, {{.8, 1.3}, {2.2, 1.8}}, {{1.35, .7}, {2.25, 1.1}}};
     begin(out, 800, 200);
     for (int i = 0; i < 4; i++)
         draw_case(out, i, ends[i][0], ends[i][1]);
