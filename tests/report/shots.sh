@@ -21,13 +21,13 @@ start_pictures() {
     build_program mosaic "$work/mosaic"
 }
 
-# build_program NAME OUT: tests/report/NAME.c with the core and the simulator, but for its main. At the top of the project.
+# build_program NAME OUT: tests/report/NAME.c with the core and the simulator, but for its main. At the top of the project. It
+# finds OpenImageIO where the simulator does (host/oiio.h).
 build_program() {
     ${MAKE:-make} --no-print-directory -s BUILD="$build" "$build/objects/host-16/tests/report/$1.o" >/dev/null
     objects=$(find "$build/objects/host-16/core" "$build/objects/host-16/host" -name '*.o' ! -name main.o)
-    # shellcheck disable=SC2046,SC2086 # words: no folder of ours has blanks
-    ${CC:-cc} -pthread "$build/objects/host-16/tests/report/$1.o" $objects $(pkg-config --libs OpenImageIO) -lstdc++ -lm \
-        -o "$2"
+    # shellcheck disable=SC2086 # words: no folder of ours has blanks
+    ${CC:-cc} -pthread "$build/objects/host-16/tests/report/$1.o" $objects -lm -ldl "-Wl,-rpath,$(cd "$build" && pwd)" -o "$2"
 }
 
 # figures MASK TRUTH: false shadow + false light in per cent of the surface, mean absolute error in per cent.

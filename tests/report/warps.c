@@ -381,8 +381,6 @@ static int write_rows(job *j, const gn_grid *grid)
     double *columns[2] = {memory_take(j->columns, sizeof(double)), memory_take(j->columns, sizeof(double))};
     if (begin_drawing(j, "rows", 2 * PANEL + BETWEEN + 4, ROW_COUNT * ROW_HEIGHT + BAR + 12, &output))
         return -1;
-    for (uint32_t i = 0; i < j->columns; i++)
-        columns[0][i] = columns[1][i] = 0;
     for (size_t i = 0; i < seen.count; i++)
         for (int warped = 0; warped < 2; warped++)
             columns[warped][texel_of(j, &seen.places[i], warped ? ROWS : BEFORE) % j->columns]++;
