@@ -8,6 +8,7 @@
 #     map       the light pass
 #     test      places, the shadow test and the mask
 #
+# (with shadow volumes map: which edges are silhouettes; test: the volumes' sides)
 # then the four last as shares of their sum in per cent, their sum, and the sum of all.
 function calls(caller, callee) {
     return cost[caller ">" callee] / 1e6
@@ -26,6 +27,12 @@ END {
     again = calls("gn_view_region", "gn_rasterise_region") + all["gn_view_begin"] / 1e6
     test = all["gn_camera_region"] / 1e6 - calls("gn_camera_region", "gn_rasterise_region")
     map = (all["gn_light_begin"] + all["gn_light_layers"] + all["gn_light_resolve"]) / 1e6
+    if (all["gn_volumes_region"]) {
+        seen = calls("gn_volumes_region", "gn_rasterise_region")
+        test = all["gn_volumes_region"] / 1e6 - seen
+        seen += all["gn_volumes_begin"] / 1e6
+        map = all["gn_volumes_light"] / 1e6
+    }
     view = all["gn_view_region"] / 1e6 - calls("gn_view_region", "gn_rasterise_region") + all["gn_view_end"] / 1e6
     if (fitted) {
         if (rounds > 1) {

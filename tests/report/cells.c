@@ -17,8 +17,9 @@
  *
  * The first four have the borders of cells in light blue, and points in red. In before.png and after.png grey: all four
  * corners of the cell agree; orange: they do not. --letters: L lit, S shadowed at the corners in after.png. --label: a
- * letter, A to F, in its corner. On standard output how many pixels silhouettes decide and how many they change; exit
- * status 1 if the core counted otherwise, 2 bad usage or input. */
+ * letter, A to F, in its corner. On standard output how many pixels silhouettes decide and how many they change, and
+ * how many in empty cells among empty ones take another corner's answer than the nearest texel's; exit status 1 if the
+ * core counted otherwise, 2 bad usage or input. */
 #include "frame.h"
 #include "gn_around.h"
 #include "image.h"
@@ -351,6 +352,31 @@ static int write_pictures(job *j)
 
 /* ---- counts ---------------------------------------------------------------------------------------------------- */
 
+static int is_empty(const job *j, int32_t column, int32_t row)
+{
+    if (column < 0 || row < 0 || column > j->settings.map_width - 2 || row > j->settings.map_height - 2)
+        return 1;
+    return j->cells[(size_t)row * j->stride + (size_t)column] == NO_POINT;
+}
+
+/* Pixels of cells that have no point and whose neighbours have none: the nearest texel is to answer. Returns how many
+ * another corner answers. */
+static uint64_t count_moved(const job *j, uint64_t *empty)
+{
+    uint64_t moved = 0;
+    *empty = 0;
+    for (size_t at = 0; at < (size_t)j->settings.width * j->settings.height; at++) {
+        const pixel *p = &recording.pixels[at];
+        int32_t column = (int32_t)floor(p->u), row = (int32_t)floor(p->v);
+        if (!p->on_map || p->quadrant == NO_QUADRANT || !is_empty(j, column, row) || !is_empty(j, column - 1, row) ||
+            !is_empty(j, column + 1, row) || !is_empty(j, column, row - 1) || !is_empty(j, column, row + 1))
+            continue;
+        ++*empty;
+        moved += p->quadrant != (p->u - column >= .5) + 2 * (p->v - row >= .5);
+    }
+    return moved;
+}
+
 /* 1 if what was seen is what the core counted. */
 static int counts_agree(const job *j)
 {
@@ -367,6 +393,8 @@ static int counts_agree(const job *j)
     printf("decided by silhouettes %" PRIu64 ", changed %" PRIu64 "; of those decided wrong before %" PRIu64
            ", after %" PRIu64 "\n",
            mixed, changed, wrong[0], wrong[1]);
+    uint64_t empty, moved = count_moved(j, &empty);
+    printf("without points about them %" PRIu64 ", of these not the nearest texel's %" PRIu64 "\n", empty, moved);
     gn_statistics s;
     gn_get_statistics(j->frame.context, &s);
     if (s.pixels_silhouette == mixed)

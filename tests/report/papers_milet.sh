@@ -4,9 +4,8 @@
 #
 #     tests/report/papers_milet.sh BUILD -o FOLDER
 #
-# As papers.sh, which calls it. SCENES (../shared/scenes): a folder with castle_sun, fence_truck_grazing and
-# dragon_spotlight; those that are not there are left out. Instructions are counted where valgrind is, by a simulator
-# for any machine of this kind, which valgrind knows; COUNTED names one that is built already.
+# As papers_wang.sh. SCENES (../shared/scenes): a folder with castle_sun, fence_truck_grazing and dragon_spotlight; those
+# that are not there are left out. Instructions are counted where valgrind is (shots.sh).
 set -eu
 
 here=$(dirname "$0")
@@ -89,6 +88,10 @@ join parameterisations-grids 3 grid-dv+rtwc/plane$part grid-msf+rtwc/plane$part 
         look "$scene-rough" "$scene" "dv+notw:0.015625/$surface" --map 256
     done
     look few-rtw castle "dv+rtwc/$surface" --map 64
+    cp "$work/few-rtw/curves.svg" "$folder/papers-warp-curves.svg"
+    look rows castle "dv+notw/$surface" --map 24
+    cp "$work/rows/rows.svg" "$folder/papers-warp-rows.svg"
+    join papers-warp-grid 1 few-rtw/plane@320x285+25+65
     look few-notw castle "dv+notw/$surface" --map 64
     join papers-warp-unused 2 few-rtw/unused few-notw/unused
     join papers-warp-functions 4 castle-dv+notw/before castle-rough/functions castle-dv+notw/functions castle-dv+notw/rows \
@@ -148,10 +151,7 @@ join parameterisations-grids 3 grid-dv+rtwc/plane$part grid-msf+rtwc/plane$part 
 
 # ---- instructions --------------------------------------------------------------------------------------------------
 
-command -v valgrind >/dev/null && command -v callgrind_annotate >/dev/null || exit 0
-counted=${COUNTED:-$work/counted/gnomon}
-[ -x "$counted" ] || ${MAKE:-make} -s BUILD="$work/counted" HOST_ARCH= OIIO=no SETUP=no "$work/counted/gnomon" >/dev/null
-
+start_counting || exit 0
 echo "== tables 1, 2 and 3: map 512, 1024 x 1024 pixels, million instructions: | scene, method | seen | again | fit | warp | map \
 | test | shares of the last four, % ||||  their sum | all |"
 for scene in $ours; do
@@ -162,10 +162,8 @@ for scene in $ours; do
         *rtw*) count="fitted=1 rounds=2" ;;
         *) count="fitted=1 rounds=1" ;;
         esac
-        # shellcheck disable=SC2046 # words
-        valgrind --tool=callgrind --callgrind-out-file="$work/calls" --compress-strings=no --compress-pos=no "$counted" \
-            render "$work/$scene.scene" $(method_options "$warp/constt:2") --map 512 --size 1024x1024 \
-            --mask "$work/x.pgm" >/dev/null 2>&1
-        awk -v name="$scene, $warp" -v "${count% *}" -v "${count#* }" -f "$here/calls.awk" "$work/calls"
+        # shellcheck disable=SC2046,SC2086 # words
+        instructions "$scene, $warp" $count -- "$scene.scene" $(method_options "$warp/constt:2") --map 512 --size 1024x1024
     done
+    instructions "$scene, volumes" fitted=0 rounds=0 -- "$scene.scene" --method volumes --size 1024x1024
 done

@@ -3,7 +3,7 @@
 #
 #     tests/report/papers_sen.sh BUILD -o FOLDER
 #
-# As papers.sh, which calls it.
+# As papers_wang.sh. ROUNDS (3) times RUNS (9) frames are measured of each cell of the table of times.
 set -eu
 
 here=$(dirname "$0")
@@ -65,6 +65,13 @@ look() {
     printf '%-6s %s\n' "$name" "$("$work/cells" "$work/$scene.scene" "$work/$scene.pgm" -o "$work/$name" --method silhouette "$@")"
 }
 
+echo "== figures 3 and 4: points of edges"
+build_program segments "$work/segments"
+mkdir -p "$work/segments.out"
+"$work/segments" -o "$work/segments.out"
+cp "$work/segments.out/generate.svg" "$folder/papers-generate.svg"
+cp "$work/segments.out/cases.svg" "$folder/papers-cases.svg"
+
 echo "== figure 2: all results of the four tests"
 one="-1.9 -1.9 1.22 -1.9 -1.82 1.9 -1.9 1.9"
 half="-1.9 -1.9 1.9 -1.9 1.9 -.45 -1.9 .1"
@@ -114,12 +121,18 @@ done
 join papers-artefacts 3 cross/truth gap/truth spike/truth cross/after gap/after spike/after
 
 echo "== figure 10: a grid that is warped"
-# shellcheck disable=SC2046 # numbers
-sheet disc.obj $(awk 'BEGIN { for (i = 0; i < 24; i++) {
-    angle = i * 3.14159265 / 12
-    printf "%.4f %.4f ", .15 + 2.4 * cos(angle), .1 + 2.1 * sin(angle) } }')
-above disc 8 7 280
-look disc disc
+# disc NAME SIDES: an ellipse, 4.8 by 4.2 texels.
+disc() {
+    # shellcheck disable=SC2046 # numbers
+    sheet "$1.obj" $(awk -v sides="$2" 'BEGIN { for (i = 0; i < sides; i++) {
+        angle = i * 6.28318531 / sides
+        printf "%.4f %.4f ", .15 + 2.4 * cos(angle), .1 + 2.1 * sin(angle) } }')
+    above "$1" 8 7 280
+    look "$1" "$1"
+}
+disc disc 24
+echo "== section 5: the same disc of more sides"
+for sides in 8 12 48 96 192; do disc disc$sides $sides; done
 join papers-grid 2 disc/texels disc/warped
 
 # ---- scenes --------------------------------------------------------------------------------------------------------
@@ -142,8 +155,9 @@ counts() {
         FILENAME ~ /volumes/ { if ($1 == "overdraw" && !("O" in n)) n["O"] = $2; next }
         !($1 in n) { n[$1] = $2 + 0 }
         END { p = n["pixels_silhouette"] / n["pixels_shaded"]
-              printf "%s, map %d: triangles %d, silhouette edges %d, silhouette fill %d of %d, P %.1f %%, O %.2f; 1 + 6 P %.2f\n", name,
-                  map, n["triangles"], n["silhouette_edges"], n["pixels_silhouette"], n["pixels_shaded"], 100 * p, n["O"], 1 + 6 * p }' \
+              printf "%s, map %d: triangles %d, silhouette edges %d, silhouette fill %d of %d, P %.1f %%, O %.2f; 1 + 6 P %.2f; texels of the map with a point %.1f %% of those written\n", name,
+                  map, n["triangles"], n["silhouette_edges"], n["pixels_silhouette"], n["pixels_shaded"], 100 * p, n["O"], 1 + 6 * p,
+                  100 * n["silhouette_texels"] / n["light_texels"] }' \
         "$work/stats.json" "$work/volumes.json"
 }
 
@@ -194,3 +208,33 @@ counts() {
         done
     done
 }
+
+# ---- times ---------------------------------------------------------------------------------------------------------
+
+pin=
+if command -v taskset >/dev/null; then pin="taskset -c ${CORE:-0}"; fi
+
+# Least milliseconds of a frame, over all rounds; the methods take turns.
+echo "== table 1: map 512, least milliseconds of a frame"
+round=0
+while [ $round -lt "${ROUNDS:-3}" ]; do
+    for scene in crowd castle; do
+        for how in "$standard --map 512" "--method volumes" "--method silhouette --map 512"; do
+            # shellcheck disable=SC2086 # words
+            $pin "$build/gnomon" bench "$work/$scene.scene" $how --runs "${RUNS:-9}" |
+                awk -v name="$scene $how" '$1 == "frame" { print $3, name }'
+        done
+    done
+    round=$((round + 1))
+done | awk '{ time = $1; sub(/^[^ ]* /, "") }
+    !($0 in least) || time < least[$0] { least[$0] = time }
+    END { for (name in least) print name ": " least[name] }' | sort
+
+start_counting || exit 0
+echo "== table 1: map 512, million instructions: all"
+for scene in crowd castle; do
+    for how in "$standard --map 512" "--method volumes" "--method silhouette --map 512"; do
+        # shellcheck disable=SC2086 # words
+        instructions "$scene $how" fitted=0 rounds=0 -- "$scene.scene" $how
+    done
+done

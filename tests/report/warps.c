@@ -16,12 +16,16 @@
  *     flat.png       of the map without the warp
  *     rows.png       non-orthogonal: pixels of each texel when rows are warped, and columns not yet
  *     functions.png  non-orthogonal: the function of each row; yellow moves to the right, blue to the left
+ *     rows.svg       non-orthogonal: pixels of five rows about the middle, where they fall into the map before and
+ * after these rows are warped; below, how many fall into each column of texels, of all rows curves.svg     rectilinear:
+ * the functions of columns and of rows, from a place on the plane to one on the map
  *
  * Pixels of a texel are shown on a scale of logarithms that is the same for all pictures. On standard output: how
  * unevenly pixels fall into texels, which is the standard deviation over the mean, the share of texels into which none
  * falls, and pixels a texel that pixels share with others, on the mean of pixels. Exit status: 0 done, 2 bad usage or
  * input. */
 #include "depth_picture.h"
+#include "file.h"
 #include "frame.h"
 #include "gn_parameterisation.h"
 #include "memory.h"
@@ -324,6 +328,109 @@ static int write_functions(job *j, const gn_grid *grid)
     return write_picture(j, "functions", &im);
 }
 
+static int begin_drawing(job *j, const char *name, int width, int height, file_output *output)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s.svg", j->folder, name);
+    if (file_output_open(output, path, &j->why))
+        return -1;
+    fprintf(output->stream,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\">"
+            "<rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n",
+            width, height, width, height, width, height);
+    return 0;
+}
+
+static int end_drawing(job *j, file_output *output)
+{
+    fprintf(output->stream, "</svg>\n");
+    return file_output_finish(output, &j->why);
+}
+
+enum { PANEL = 360, BETWEEN = 24, ROW_COUNT = 5, ROW_HEIGHT = 22, BAR = 70 };
+
+static double largest_column(const double *columns, uint32_t count)
+{
+    double most = 0;
+    for (uint32_t i = 0; i < count; i++)
+        most = fmax(most, columns[i]);
+    return most;
+}
+
+/* Texels and the bars below them: pixels of each column, on one scale for both panels. */
+static void draw_columns(const job *j, FILE *out, double left, const double *columns, double most)
+{
+    double width = (double)PANEL / j->columns, bottom = ROW_COUNT * ROW_HEIGHT + 8 + BAR;
+    fprintf(out, "<path fill=\"none\" stroke=\"#999\" d=\"");
+    for (uint32_t i = 0; i <= j->columns; i++)
+        fprintf(out, "M%.1f 2v%d", left + i * width, ROW_COUNT * ROW_HEIGHT);
+    for (int i = 0; i <= ROW_COUNT; i++)
+        fprintf(out, "M%.1f %dh%d", left, 2 + i * ROW_HEIGHT, PANEL);
+    fprintf(out, "\"/>\n<path fill=\"#777\" d=\"");
+    for (uint32_t i = 0; i < j->columns; i++)
+        fprintf(out, "M%.1f %.1fh%.1fv-%.1fh-%.1fz", left + i * width + 1, bottom, width - 2, BAR * columns[i] / most,
+                width - 2);
+    fprintf(out, "\"/>\n");
+}
+
+/* Before and after the rows are warped. */
+static int write_rows(job *j, const gn_grid *grid)
+{
+    file_output output;
+    uint32_t first = (j->rows - ROW_COUNT) / 2;
+    double *columns[2] = {memory_take(j->columns, sizeof(double)), memory_take(j->columns, sizeof(double))};
+    if (begin_drawing(j, "rows", 2 * PANEL + BETWEEN + 4, ROW_COUNT * ROW_HEIGHT + BAR + 12, &output))
+        return -1;
+    for (size_t i = 0; i < seen.count; i++)
+        for (int warped = 0; warped < 2; warped++)
+            columns[warped][texel_of(j, &seen.places[i], warped ? ROWS : BEFORE) % j->columns]++;
+    double most = fmax(largest_column(columns[0], j->columns), largest_column(columns[1], j->columns));
+    for (int warped = 0; warped < 2; warped++)
+        draw_columns(j, output.stream, 2 + warped * (PANEL + BETWEEN), columns[warped], most);
+    fprintf(output.stream, "<path stroke=\"#1850f0\" stroke-width=\"2.4\" stroke-linecap=\"round\" d=\"");
+    for (size_t i = 0; i < seen.count; i++) {
+        const place *p = &seen.places[i];
+        if ((uint32_t)i * 2654435761u >> 25) /* one of 128, from all over the picture (Knuth's multiplier) */
+            continue;
+        double row = ldexp(p->y, -30) * j->rows - first, x = ldexp(p->x, -30) * j->columns;
+        double to = find_place(band_of(j, grid, p->y), j->columns, p->x) + .5;
+        if (row < 0 || row >= ROW_COUNT)
+            continue;
+        fprintf(output.stream, "M%.1f %.1fh0M%.1f %.1fh0", 2 + x * PANEL / j->columns, 2 + row * ROW_HEIGHT,
+                2 + PANEL + BETWEEN + to * PANEL / j->columns, 2 + row * ROW_HEIGHT);
+    }
+    fprintf(output.stream, "\"/>\n");
+    free(columns[0]);
+    free(columns[1]);
+    return end_drawing(j, &output);
+}
+
+static void draw_curve(FILE *out, double left, const uint16_t *places, uint32_t count)
+{
+    enum { STEPS = 180, SQUARE = 180 };
+    fprintf(
+        out,
+        "<path fill=\"none\" stroke=\"#999\" d=\"M%.1f 2h%dv%dh-%dzl%d %d\"/><path fill=\"none\" stroke=\"#e06000\" "
+        "stroke-width=\"2\" d=\"",
+        left, SQUARE, SQUARE, SQUARE, SQUARE, SQUARE);
+    for (int i = 0; i <= STEPS; i++) {
+        uint32_t share = (uint32_t)((uint64_t)i * (ONE - 1) / STEPS);
+        double to = (find_place(places, count, share) + .5) / count;
+        fprintf(out, "%c%.1f %.1f", i ? 'L' : 'M', left + (double)i * SQUARE / STEPS, 2 + to * SQUARE);
+    }
+    fprintf(out, "\"/>\n");
+}
+
+static int write_curves(job *j, const gn_grid *grid)
+{
+    file_output output;
+    if (begin_drawing(j, "curves", 388, 184, &output))
+        return -1;
+    draw_curve(output.stream, 2, grid->columns, j->columns);
+    draw_curve(output.stream, 206, grid->rows, j->rows);
+    return end_drawing(j, &output);
+}
+
 static int write_stage(job *j, const char *name, stage at)
 {
     uint32_t *counts = count_samples(j, at);
@@ -343,7 +450,9 @@ static int write_pictures(job *j)
     if (write_picture(j, "map", &map) || write_picture(j, "flat", &flat) || write_plane(j) ||
         write_stage(j, "before", BEFORE))
         return -1;
-    if (grid && grid->across && (write_stage(j, "rows", ROWS) || write_functions(j, grid)))
+    if (grid && grid->across && (write_stage(j, "rows", ROWS) || write_functions(j, grid) || write_rows(j, grid)))
+        return -1;
+    if (grid && grid->columns && grid->rows && write_curves(j, grid))
         return -1;
     return write_stage(j, "after", AFTER);
 }
