@@ -385,9 +385,10 @@ $(foreach b,host checked,$(foreach d,$(DEPTHS),$(eval $(call test_rules,$(b)-$(d
 $(foreach b,host checked,$(foreach d,$(DEPTHS),\
 	$(eval $(BUILD)/$(b)-$(d)/tests/host/lane_test: $(call lanes,$(b)-$(d)))))
 
-TEST_INPUTS := all $(TEST_PROGRAMS) $(BUILD)/checked-16/gnomon $(TARGET_DEPTHS:%=$(BUILD)/hashes/%.txt) \
-	$(MINIMAL_DEPTHS:%=$(BUILD)/%/minimal_main.txt) $(BENCH_COUNTS) $(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) \
-	$(FOOTPRINTS:%=$(BUILD)/cortex-m4-16/footprint/%.txt)
+# First what runs for long when it is built.
+TEST_INPUTS := $(TARGET_DEPTHS:%=$(BUILD)/hashes/%.txt) $(BENCH_COUNTS) $(MINIMAL_DEPTHS:%=$(BUILD)/%/minimal_main.txt) \
+	$(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) $(FOOTPRINTS:%=$(BUILD)/cortex-m4-16/footprint/%.txt) \
+	all $(TEST_PROGRAMS) $(BUILD)/checked-16/gnomon
 
 test: ## install what is missing, build for host and targets, run everything, count what passed and failed
 	$(quiet)tests/setup.sh test
