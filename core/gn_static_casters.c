@@ -1,7 +1,7 @@
 /* Casters that stand still: what the light pass makes of them is kept, and the others are inserted into it.
  *
- * The layers are the two smallest depths of all triangles over a texel, as a multiset (of slopes the least of two
- * things each), before they are resolved. So those of some triangles may stay, and those of the rest may come later:
+ * The layers are the two smallest depths of all triangles over a texel, as a multiset (with GN_SLOPE the smallest of
+ * each of two), before they are resolved. So those of some triangles may stay, and those of the rest may come later:
  *     layers(static and moving) = insert(layers(static), moving)
  * bit for bit, whatever the surface. Resolved maps would merge by min where one layer is all there is, and not with
  * two: the second depth may be of one, the first of the other.
