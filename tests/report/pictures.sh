@@ -63,6 +63,11 @@ for scene in castle room pipes pins factory torus2; do
 done
 join contact 3x2 contact_castle contact_room contact_pipes contact_pins contact_factory contact_torus2
 
+# 32 KiB each: the best of the biases tried from 0.25t to 32t, and the best chain.
+shot "$gnomon" a colonnade 640x480+0+0 --method constant --bias 1.5t --map 128
+shot "$gnomon" b colonnade 640x480+0+0 --method silhouette --parameterise msf+rectilinear --map 103
+join readme 3x1 b a.difference b.difference
+
 shot "$gnomon" a fence 400x240+240+120 --method second-depth --map 256
 shot "$gnomon" b fence 400x240+240+120 --method second-depth --map 1024
 join limits-edges 2x2 a a.difference b b.difference
