@@ -246,9 +246,10 @@ static void write_key(FILE *s, const char *colour, const char *meaning)
 static void write_reading(const page *p)
 {
     fputs("<h3>How to read the pictures</h3>\n<p class=\"small\">Plots: less is better both ways. The staircase is the "
-          "front: to its left and below it there is nothing. Its points are numbered as in the list below the plot. "
-          "Upright dashed lines are the budgets. Drawn are all rows of the least depth; of others only those on the "
-          "front.",
+          "front: to its left and below it there is nothing. Numbered and named, also in the list below the plot, are "
+          "its points that err at least a tenth less than the one before. Upright dashed lines are the budgets. Drawn "
+          "are all rows of the least depth; of greater depths those on the front that err at least a tenth less than "
+          "all of the least depth at up to a tenth more bytes or cost.",
           p->stream);
     if (!page_picture_is_png())
         fputs(" The pictures are small, as there is no OpenImageIO to compress them.", p->stream);

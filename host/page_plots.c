@@ -86,16 +86,49 @@ typedef struct scatter {
     plot_point *points; /* one a row */
     note *notes;
     char (*names)[64]; /* with the depth, where it is not the least */
-    size_t *front;
-    size_t front_count;
+    size_t *front, *named;
+    size_t front_count, named_count;
 } scatter;
+
+/* Of the rows of greater depths those stay that err at least a tenth less than all of the least depth that cost up to
+ * a tenth more: the others would only cover rows that say the same. */
+static void hide_depths(scatter *s, const page_rows *rows)
+{
+    for (size_t i = 0; i < rows->count; i++) {
+        double least = INFINITY;
+        if (rows->rows[i]->depth_bits == rows->least_depth)
+            continue;
+        for (size_t k = 0; k < rows->count; k++)
+            if (rows->rows[k]->depth_bits == rows->least_depth && s->points[k].x <= 1.1 * s->points[i].x)
+                least = fmin(least, s->points[k].y);
+        if (!(s->points[i].y <= 0.9 * least))
+            s->points[i].x = NAN;
+    }
+}
+
+static void find_front(scatter *s, const page_rows *rows)
+{
+    uint8_t *on_front = memory_take(rows->count, 1);
+    s->front_count = plot_front(s->front, s->points, rows->count);
+    s->named_count = plot_named(s->named, s->front, s->front_count, s->points);
+    for (size_t i = 0; i < s->front_count; i++)
+        on_front[s->front[i]] = 1;
+    for (size_t i = 0; i < rows->count; i++)
+        if (!on_front[i] && rows->rows[i]->depth_bits != rows->least_depth)
+            s->points[i].x = NAN;
+    free(on_front);
+}
 
 /* x: of bytes without a map NAN, so that it is not drawn. */
 static scatter make_scatter(const page *p, const page_rows *rows, int of_bytes)
 {
-    scatter s = {memory_take(rows->count, sizeof *s.points), memory_take(rows->count, sizeof *s.notes),
-                 memory_take(rows->count, sizeof *s.names), memory_take(rows->count, sizeof *s.front), 0};
-    for (size_t i = 0; i < rows->count; i++) {
+    size_t count = rows->count;
+    scatter s = {.points = memory_take(count, sizeof *s.points),
+                 .notes = memory_take(count, sizeof *s.notes),
+                 .names = memory_take(count, sizeof *s.names),
+                 .front = memory_take(count, sizeof *s.front),
+                 .named = memory_take(count, sizeof *s.named)};
+    for (size_t i = 0; i < count; i++) {
         const sweep_row *row = rows->rows[i];
         double x = !of_bytes ? advice_cost_of(row, p->cost) : row->map > 0 ? row->resident_bytes : NAN;
         s.notes[i] = describe(p, row);
@@ -106,7 +139,8 @@ static scatter make_scatter(const page *p, const page_rows *rows, int of_bytes)
         s.points[i] =
             (plot_point){x, row->error, shape_of(row->chain), is_parameterised(row), s.names[i], s.notes[i].text};
     }
-    s.front_count = plot_front(s.front, s.points, rows->count);
+    hide_depths(&s, rows);
+    find_front(&s, rows);
     return s;
 }
 
@@ -116,18 +150,7 @@ static void free_scatter(scatter *s)
     free(s->notes);
     free(s->names);
     free(s->front);
-}
-
-/* Rows of greater depths are drawn where they are on the front. */
-static void hide_depths(scatter *s, const page_rows *rows)
-{
-    for (size_t i = 0; i < rows->count; i++) {
-        int drawn = rows->rows[i]->depth_bits == rows->least_depth;
-        for (size_t k = 0; k < s->front_count; k++)
-            drawn |= s->front[k] == i;
-        if (!drawn)
-            s->points[i].x = NAN;
-    }
+    free(s->named);
 }
 
 /* ---- lines ------------------------------------------------------------------------------------------------------ */
@@ -185,8 +208,8 @@ static void write_names(const page *p, const page_rows *rows, const scatter *s)
             p->cost == ADVICE_INSTRUCTIONS ? "instr. a pixel"
             : p->cost == ADVICE_HOST_RATIO ? "time"
                                            : "");
-    for (size_t i = 0; i < s->front_count; i++)
-        write_name_row(p, rows->rows[s->front[i]], s->names[s->front[i]], i + 1);
+    for (size_t i = 0; i < s->named_count; i++)
+        write_name_row(p, rows->rows[s->named[i]], s->names[s->named[i]], i + 1);
     fputs("</tbody></table>\n", p->stream);
 }
 
@@ -234,7 +257,6 @@ static void write_against_bytes(const page *p, const page_rows *rows, const char
         of.level_name = level;
     }
     note_front(&s, on_front, 1);
-    hide_depths(&s, rows);
     write_figure(p, rows, &of, &s);
     free_scatter(&s);
 }
@@ -248,7 +270,6 @@ static void write_against_cost(const page *p, const page_rows *rows, const char 
                .x_axis = PLOT_DECIMAL};
     snprintf(title, sizeof title, "Wrong pixels against %s, %.64s", of.x_name, scene);
     note_front(&s, on_front, 2);
-    hide_depths(&s, rows);
     write_figure(p, rows, &of, &s);
     free_scatter(&s);
 }

@@ -71,10 +71,10 @@ void page_write_columns(const page *p)
         markup_text(p->stream, c->meaning);
         fputs("</dd>\n", p->stream);
     }
-    fputs("<dt>front</dt><dd>B: no other row has at most these resident bytes and this error, and less of one; C: the "
-          "same of "
-          "cost and error</dd></dl>\n",
-          p->stream);
+    fputs(
+        "<dt>front</dt><dd>B: on the front of bytes: no other row has at most these resident bytes and this error, and "
+        "less of one; C: on that of cost. Rows of greater depths take part as in the plots</dd></dl>\n",
+        p->stream);
 }
 
 /* ---- rows ------------------------------------------------------------------------------------------------------- */

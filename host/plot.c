@@ -71,6 +71,15 @@ size_t plot_front(size_t *front, const plot_point points[], size_t count)
     return found;
 }
 
+size_t plot_named(size_t *named, const size_t front[], size_t count, const plot_point points[])
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++)
+        if (!found || points[front[i]].y <= 0.9 * points[named[found - 1]].y)
+            named[found++] = front[i];
+    return found;
+}
+
 /* ---- numbers ---------------------------------------------------------------------------------------------------- */
 
 plot_text plot_number(double number)
@@ -137,9 +146,9 @@ typedef struct drawing {
     FILE *stream;
     axis x, y;
     int has_floor;
-    size_t *front;
-    size_t front_count;
-    uint8_t *on_front; /* a byte a point */
+    size_t *front, *named;
+    size_t front_count, named_count;
+    uint8_t *is_named; /* a byte a point */
     plot_labels labels;
 } drawing;
 
@@ -325,7 +334,7 @@ static void write_others(drawing *d)
     fputs("<g class=\"r\">\n", d->stream);
     for (size_t i = 0; i < d->plot->point_count; i++) {
         const plot_point *p = &d->plot->points[i];
-        if (d->on_front[i] || !can_be_drawn(p))
+        if (d->is_named[i] || !can_be_drawn(p))
             continue;
         write_point(d, p);
         plot_labels_avoid(&d->labels, around(place_x(d, p->x), place_y(d, p->y), MARK - 1), PLOT_LIGHT);
@@ -363,11 +372,11 @@ static void write_stairs(drawing *d)
     }
 }
 
-static void write_front(drawing *d)
+static void write_named(drawing *d)
 {
     fputs("<g class=\"p\">\n", d->stream);
-    for (size_t i = 0; i < d->front_count; i++) {
-        const plot_point *p = &d->plot->points[d->front[i]];
+    for (size_t i = 0; i < d->named_count; i++) {
+        const plot_point *p = &d->plot->points[d->named[i]];
         write_point(d, p);
         plot_labels_avoid(&d->labels, around(place_x(d, p->x), place_y(d, p->y), MARK), PLOT_HEAVY);
     }
@@ -397,7 +406,7 @@ static void write_label(drawing *d, const plot_label *l, size_t number, const ch
 /* Try the number with the name, where one is wanted; then the number alone. */
 static void label_point(drawing *d, size_t number, const char *name)
 {
-    const plot_point *p = &d->plot->points[d->front[number - 1]];
+    const plot_point *p = &d->plot->points[d->named[number - 1]];
     double x = place_x(d, p->x), y = place_y(d, p->y), digits = LETTER_WIDTH * (number < 10 ? 1.1 : 2.2);
     plot_label l = {.found = 0};
     if (name)
@@ -414,16 +423,16 @@ static void label_point(drawing *d, size_t number, const char *name)
 static const char *new_name(const drawing *d, size_t i)
 {
     const plot_point *points = d->plot->points;
-    const char *name = points[d->front[i]].name;
-    return i && strcmp(name, points[d->front[i - 1]].name) == 0 ? 0 : name;
+    const char *name = points[d->named[i]].name;
+    return i && strcmp(name, points[d->named[i - 1]].name) == 0 ? 0 : name;
 }
 
 static void write_labels(drawing *d)
 {
-    for (size_t i = 0; i < d->front_count; i++)
+    for (size_t i = 0; i < d->named_count; i++)
         if (new_name(d, i))
             label_point(d, i + 1, new_name(d, i));
-    for (size_t i = 0; i < d->front_count; i++)
+    for (size_t i = 0; i < d->named_count; i++)
         if (!new_name(d, i))
             label_point(d, i + 1, 0);
 }
@@ -433,10 +442,12 @@ static void write_labels(drawing *d)
 static void find_front(drawing *d)
 {
     d->front = memory_take(d->plot->point_count, sizeof *d->front);
-    d->on_front = memory_take(d->plot->point_count, 1);
+    d->named = memory_take(d->plot->point_count, sizeof *d->named);
+    d->is_named = memory_take(d->plot->point_count, 1);
     d->front_count = plot_front(d->front, d->plot->points, d->plot->point_count);
-    for (size_t i = 0; i < d->front_count; i++)
-        d->on_front[d->front[i]] = 1;
+    d->named_count = plot_named(d->named, d->front, d->front_count, d->plot->points);
+    for (size_t i = 0; i < d->named_count; i++)
+        d->is_named[d->named[i]] = 1;
 }
 
 void plot_write(FILE *stream, const plot *p)
@@ -453,12 +464,13 @@ void plot_write(FILE *stream, const plot *p)
     write_lines(&d);
     write_others(&d);
     write_stairs(&d);
-    write_front(&d);
+    write_named(&d);
     write_labels(&d);
     fputs("</svg>\n", stream);
     plot_labels_free(&d.labels);
     free(d.front);
-    free(d.on_front);
+    free(d.named);
+    free(d.is_named);
 }
 
 void plot_write_style(FILE *stream)

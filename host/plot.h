@@ -1,5 +1,5 @@
 /* Points over two logarithmic axes as SVG: what one pays to the right, what one errs upwards, and the Pareto front of
- * it as a staircase, its points named.
+ * it as a staircase, its main points named.
  *
  * Readable in black and white: points differ in shape, lines in dashes; colours (those of Okabe and Ito, which differ
  * for every kind of eye) only repeat it. Names are put where they cover neither each other nor the front, some joined
@@ -32,7 +32,7 @@ typedef struct plot_point {
     double x, y; /* x above 0, y 0 or more; others are not drawn and not on the front */
     plot_shape shape;
     int filled;
-    const char *name; /* beside it, where it is on the front */
+    const char *name; /* beside it, where it is named */
     const char *note; /* where a pointer rests on it */
 } plot_point;
 
@@ -63,6 +63,10 @@ typedef struct plot {
 /* The points that no other one beats: none is at most as far to the right and at most as high, and less in one of both.
  * Of equal points the first one stays. front: room for count indices, from left to right. Returns how many. */
 size_t plot_front(size_t *front, const plot_point points[], size_t count);
+
+/* Of the front those that are named, as others say nearly the same: the first one, and then each that is at least a
+ * tenth lower than the one named before. named: room for count indices. Returns how many. */
+size_t plot_named(size_t *named, const size_t front[], size_t count, const plot_point points[]);
 
 void plot_write(FILE *stream, const plot *p);
 

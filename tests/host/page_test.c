@@ -41,7 +41,7 @@ static void fill(sweep_row *row, uint64_t *state)
 {
     row->resident_bytes = row->map * row->map * row->depth_bits / 8 * (double)(4 + tap_random(state) % 3) / 4;
     row->peak_bytes = row->resident_bytes + 5000;
-    row->error = (double)(tap_random(state) % 60) / row->map * (row->map > 0 ? 4 : INFINITY);
+    row->error = tap_random(state) % 32 ? (double)(60 + tap_random(state) % 60) / row->map : 0;
     if (row->map == 0)
         row->error = 0.25;
     row->false_shadow = row->error / 2;
@@ -57,7 +57,7 @@ static size_t make_rows(void)
     static const struct {
         double map, budget;
     } maps[] = {{64, 0}, {128, 0}, {256, 0}, {120, 32768}, {250, 131072}, {500, 524288}};
-    uint64_t state = 3;
+    uint64_t state = 7;
     size_t count = 0;
     for (int depth = 16; depth <= 32; depth *= 2)
         for (int s = 0; s < 2; s++)
@@ -204,16 +204,35 @@ static int row_shown(part tr, part table, const char *scene, size_t count)
     return -1;
 }
 
-/* By the definition, every pair: is it on the front of bytes (of rows with a map), or of cost? */
+static double paid(const sweep_row *row, int of_bytes)
+{
+    return of_bytes ? row->resident_bytes : row->m4_pixel;
+}
+
+static int takes_part(const sweep_row *a, size_t count, int of_bytes)
+{
+    if (of_bytes && a->map == 0)
+        return 0;
+    for (size_t i = 0; i < count && a->depth_bits == 32; i++) {
+        const sweep_row *b = &rows[i];
+        if (strcmp(a->scene, b->scene) == 0 && b->depth_bits == 16 && (b->map > 0 || !of_bytes) &&
+            paid(b, of_bytes) <= paid(a, of_bytes) * 11 / 10 && a->error > b->error * 9 / 10)
+            return 0;
+    }
+    return 1;
+}
+
+/* By the definition, every pair: is it on the front of bytes (of rows with a map), or of cost? Of 32 bits those take
+ * part that are a tenth better than all of 16 bits that cost up to a tenth more. */
 static int should_be_on_front(size_t row, size_t count, int of_bytes)
 {
     const sweep_row *a = &rows[row];
-    if (of_bytes && a->map == 0)
+    if (!takes_part(a, count, of_bytes))
         return 0;
     for (size_t i = 0; i < count; i++) {
         const sweep_row *b = &rows[i];
-        double x = of_bytes ? a->resident_bytes : a->m4_pixel, other = of_bytes ? b->resident_bytes : b->m4_pixel;
-        if (strcmp(a->scene, b->scene) != 0 || (of_bytes && b->map == 0) || i == row)
+        double x = paid(a, of_bytes), other = paid(b, of_bytes);
+        if (strcmp(a->scene, b->scene) != 0 || i == row || !takes_part(b, count, of_bytes))
             continue;
         if (other <= x && b->error <= a->error && (other < x || b->error < a->error || i < row))
             return 0;
@@ -261,8 +280,13 @@ static void points(part all, size_t count)
             expected += strcmp(rows[i].scene, hostile) == 0 && (rows[i].map > 0 || !of_bytes) &&
                         (rows[i].depth_bits == 16 || should_be_on_front(i, count, of_bytes));
     note("%zu points", expected);
-    ok(part_count(section, "<use ") == expected && expected > 50 && expected < 96,
+    ok(part_count(section, "<use ") == expected && expected > 49 && expected < 96,
        "greater_depths_are_drawn_where_they_are_on_the_front");
+    size_t listed = 0;
+    for (part t = part_next(section, section.start, "<table class=\"front\"", "</table>"); t.start;
+         t = part_next(section, t.end, "<table class=\"front\"", "</table>"))
+        listed += part_count(t, "<tr><td>");
+    ok(listed == part_count(section, "<tspan class=\"d\">") && listed > 4, "what_has_a_number_is_in_the_list_below_it");
 }
 
 static void heads(part all)
