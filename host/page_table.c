@@ -90,15 +90,14 @@ static void write_head(FILE *s, const char *name, int is_number, int sorted)
 /* What is not known is an empty cell. */
 static void write_cell(FILE *s, const sweep_row *row, const sweep_column *column)
 {
+    double number = column->kind == SWEEP_TEXT ? NAN : sweep_row_number(row, column);
     fputs("<td>", s);
     if (column->kind == SWEEP_TEXT)
         markup_text(s, sweep_row_text(row, column));
-    else if (isnan(sweep_row_number(row, column)))
-        ;
-    else if (column->kind == SWEEP_COUNT)
-        fprintf(s, "%.0f", sweep_row_number(row, column));
+    else if (column->kind == SWEEP_COUNT && !isnan(number))
+        fprintf(s, "%.0f", number);
     else
-        fputs(plot_number(sweep_row_number(row, column)).text, s);
+        fputs(plot_number(number).text, s);
     fputs("</td>", s);
 }
 
@@ -124,9 +123,9 @@ static void write_switches(const page *p, size_t number)
 
 void page_write_table(const page *p, const page_rows *rows, const uint8_t *on_front, size_t number)
 {
-    fprintf(p->stream, "<div class=\"rows\">\n");
+    fputs("<div class=\"rows\">\n", p->stream);
     write_switches(p, number);
-    fprintf(p->stream, "<div class=\"box\" tabindex=\"0\"><table class=\"sort main%d\">\n<thead><tr>", p->main_count);
+    fputs("<div class=\"box\" tabindex=\"0\"><table class=\"sort\">\n<thead><tr>", p->stream);
     write_head(p->stream, "chain", 0, 0);
     write_head(p->stream, "front", 0, 0);
     for (int i = 0; i < p->column_count; i++) {
