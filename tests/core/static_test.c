@@ -544,7 +544,7 @@ static void pictures_of_one_scene(uint64_t n, tally *count, pixels *seen)
         if (view && between(0, 3) == 0) {
             s.light.box_depth += 16;   /* of directional lights */
             s.light.position[2] += 10; /* of spot lights */
-            e.same = 0;
+            e.same &= settings.fit && !settings.warp; /* a fit may find the same box, of any light */
         }
     }
     if (!twins_end(&t))
