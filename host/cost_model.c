@@ -121,6 +121,7 @@ static void correct_camera(cost_features *f, const frame_kind *k, const gn_plan 
     put(f, "pixels with virtual samples", open);
     put(f, "pixels with virtual samples, spot light", open * k->spot);
     put(f, "pixels decided by silhouettes", (double)n->pixels_silhouette);
+    put(f, "pixels decided by smooth silhouettes", (double)n->pixels_silhouette * k->smooth);
 }
 
 /* ---- without -------------------------------------------------------------------------------------------------------
@@ -279,6 +280,13 @@ static void sum_job(cost_features *f, cost_job job, const frame_kind *k, const g
     f->sums = f->count;
 }
 
+static void correct_volumes_camera(cost_features *f, const frame_kind *k, const gn_statistics *n)
+{
+    put(f, "pixels", k->pixels);
+    put(f, "pixels shaded, spot light", (double)n->pixels_shaded * k->spot);
+    put(f, "fragments of volumes", (double)n->volume_fragments);
+}
+
 static void correct_job(cost_features *f, cost_job job, const frame_kind *k, const gn_plan *plan,
                         const gn_statistics *n)
 {
@@ -289,7 +297,7 @@ static void correct_job(cost_features *f, cost_job job, const frame_kind *k, con
     else if (job == COST_CAMERA)
         correct_camera(f, k, plan, n);
     else if (job == COST_VOLUMES_CAMERA)
-        put(f, "fragments of volumes", (double)n->volume_fragments);
+        correct_volumes_camera(f, k, n);
 }
 
 static cost_job job_of(lane_pass pass, const gn_settings *settings)
