@@ -198,6 +198,8 @@ GOLDEN_SCENES := lshape torus2 table pipes pins fence
 GOLDEN_HEADERS := $(GOLDEN_SCENES:%=$(BUILD)/golden/%.h)
 CALIBRATION_SCENES := $(GOLDEN_SCENES) castle colonnade crowd factory room sheets
 CALIBRATION_HEADERS := $(CALIBRATION_SCENES:%=$(BUILD)/golden/%.h)
+VALIDATION_SCENES := $(addsuffix _view21,castle factory fence pins room table)
+VALIDATION_HEADERS := $(VALIDATION_SCENES:%=$(BUILD)/golden/%.h)
 # The simulator's own build and the one that looks for mistakes take part as well.
 TARGETS := $(EMBEDDED_TARGETS) $(HOSTED_TARGETS) host checked
 TARGET_DEPTHS := $(foreach d,$(DEPTHS),$(addsuffix -$(d),$(TARGETS)))
@@ -212,6 +214,11 @@ $(BUILD)/golden/%.h: $(BUILD)/gnomon
 	@mkdir -p $(@D)/new
 	$(quiet)$< procedural $* -o $(@D) && $< pack $(@D)/$*.scene --edges -o $(@D)/new/$(@F) >/dev/null
 	@cmp -s $(@D)/new/$(@F) $@ || cp $(@D)/new/$(@F) $@
+
+$(BUILD)/golden/%_view21.h: $(BUILD)/gnomon
+	$(call say,pack)
+	@mkdir -p $(@D)
+	$(quiet)$< procedural $* --view 21 -o $(@D) && $< pack $(@D)/$*_view21.scene --edges -o $@ >/dev/null
 
 $(BUILD)/golden/footprint.h: $(BUILD)/gnomon port/footprint/scene.awk
 	$(call say,pack)
@@ -239,9 +246,10 @@ $(BUILD)/$(2)/%.elf: $(BUILD)/objects/$(2)/port/%.o $(call objects,$(2),$(PROGRA
 $(BUILD)/objects/$(2)/port/firmware.o $(BUILD)/objects/$(2)/port/bench/bench.o: $(GOLDEN_HEADERS)
 $(BUILD)/$(2)/firmware.elf: $(BUILD)/objects/$(2)/port/methods.o
 $(BUILD)/$(2)/bench/bench.elf: $(patsubst %,$(BUILD)/objects/$(2)/port/bench/%.o,casters edges warps)
-$(BUILD)/objects/$(2)/port/report/report.o: $(GOLDEN_HEADERS)
+$(BUILD)/objects/$(2)/port/report/report.o $(BUILD)/objects/$(2)/port/report/check.o: $(GOLDEN_HEADERS)
 $(BUILD)/objects/$(2)/port/report/calibrate.o: $(CALIBRATION_HEADERS)
-$(BUILD)/$(2)/report/report.elf $(BUILD)/$(2)/report/calibrate.elf: $(BUILD)/objects/$(2)/port/report/chains.o
+$(BUILD)/objects/$(2)/port/report/validate.o: $(VALIDATION_HEADERS)
+$(foreach p,report check calibrate validate,$(BUILD)/$(2)/report/$(p).elf): $(BUILD)/objects/$(2)/port/report/chains.o
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN) -kernel)
 $(BUILD)/$(2)/minimal_main.txt: $(BUILD)/$(2)/minimal_main.elf
@@ -257,8 +265,8 @@ $(BUILD)/$(2)/%.elf: $(call objects,$(2),port/%.c $(PROGRAM) port/linux/console.
 	$(quiet)$(or $($(1)_CC),$(CC)) $($(1)_FLAGS) $$^ $($(1)_LINK) -o $$@
 $(BUILD)/$(2)/firmware.elf: $(BUILD)/objects/$(2)/port/methods.o
 $(BUILD)/objects/$(2)/port/firmware.o: $(GOLDEN_HEADERS)
-$(BUILD)/$(2)/report/report.elf $(BUILD)/$(2)/report/calibrate.elf: $(BUILD)/objects/$(2)/port/report/chains.o
-$(BUILD)/objects/$(2)/port/report/report.o: $(GOLDEN_HEADERS)
+$(foreach p,report check calibrate,$(BUILD)/$(2)/report/$(p).elf): $(BUILD)/objects/$(2)/port/report/chains.o
+$(BUILD)/objects/$(2)/port/report/report.o $(BUILD)/objects/$(2)/port/report/check.o: $(GOLDEN_HEADERS)
 $(BUILD)/objects/$(2)/port/report/calibrate.o: $(CALIBRATION_HEADERS)
 $(BUILD)/hashes/$(2).txt: $(BUILD)/$(2)/firmware.elf
 	$$(call run_firmware,$$($(1)_RUN))
@@ -299,7 +307,7 @@ define count
 	$(call say,count)
 	@mkdir -p $(@D)
 	$(quiet)address() { echo 0x$$($($*_TOOL)nm $< | awk -v name=$$1 '$$3 == name { print $$1 }'); }; \
-	$(filter-out -icount shift=%,$($*_RUN)) -kernel $< \
+	$(patsubst 900,3600,$(filter-out -icount shift=%,$($*_RUN))) -kernel $< \
 		-plugin $(BUILD)/bench/count_plugin.so,begin=$$(address mark_begin),end=$$(address mark_end)$(1) \
 		</dev/null >$@ 2>$@.regions || { echo "error exit status $$?"; tail -n 2 $@ $@.regions; }
 	@cat $@.regions >>$@
@@ -317,26 +325,55 @@ profile: $(BENCH_TARGETS:%=$(BUILD)/bench/%.profile) ## say what each function t
 	@awk 'FNR == 1 { n = 0 } $$1 == "case" { name[n++] = $$2 } $$1 == "region" { print FILENAME, name[$$2], $$4 } \
 		$$1 == "function" && $$2 > 100 { printf "%12d %s\n", $$2, $$3 }' $^
 
-# The frames of docs/report, and those that the cost model is fitted to: their instructions, and what the core counts of them.
+# The frames of docs/report, those of its test, and those that the cost model is fitted to.
 REPORT_TARGETS := cortex-m4 cortex-m0 rv32imc rv32i
 $(BUILD)/report/%.count: $(BUILD)/%-16/report/report.elf $(BUILD)/bench/count_plugin.so
 	$(call count)
+$(BUILD)/report-check/%.count: $(BUILD)/%-16/report/check.elf $(BUILD)/bench/count_plugin.so
+	$(call count)
 $(BUILD)/calibrate/%.count: $(BUILD)/%-16/report/calibrate.elf $(BUILD)/bench/count_plugin.so
 	$(call count)
+$(BUILD)/validate/%.count: $(BUILD)/%-16/report/validate.elf $(BUILD)/bench/count_plugin.so
+	$(call count)
+$(BUILD)/report/%.flash: $(BUILD)/objects/%-16/port/report/linked.o $(BUILD)/objects/%-16/port/memory.o $(BUILD)/%-16/libgnomon.a \
+		port/report/chains.c port/report/flash.sh
+	$(call say,flash)
+	@mkdir -p $(@D)
+	$(quiet)sed -n 's/.*{\.name = "\([^"]*\)".*/\1/p' port/report/chains.c | \
+		port/report/flash.sh $(BUILD) $*-16 $($*_TOOL) $($*_FLAGS) >$@
+$(BUILD)/report/%.version: always
+	@mkdir -p $(@D)
+	@$($*_TOOL)gcc --version | sed -n 1p | cmp -s - $@ || $($*_TOOL)gcc --version | sed -n 1p >$@
 
-# Programs of tests/report that link the simulator with all its lanes.
-$(BUILD)/report/%: $(BUILD)/objects/host-16/tests/report/%.o \
+# Two of them are counted anew by the tests, in part.
+REPORT_CHECKED := cortex-m4 rv32imc
+REPORT_INPUTS := $(BUILD)/report/targets $(foreach t,$(REPORT_CHECKED),$(BUILD)/report-check/$(t).count \
+	$(BUILD)/report/$(t).flash $(BUILD)/report/$(t).version)
+REPORT_FILES := $(foreach t,$(REPORT_TARGETS),$(addprefix $(BUILD)/report/$(t).,count flash version))
+report: $(BUILD)/report/targets $(OIIO_BRIDGE) $(REPORT_FILES) ## errors, instructions and bytes of every chain on four targets: docs/report
+	@mkdir -p docs/report
+	$(quiet)$< $(BUILD)/report $(BUILD)/report $(GOLDEN_SCENES:%=$(BUILD)/golden/%.scene) \
+		--csv docs/report/targets.csv --page docs/report/index.html
+	$(quiet)awk -f tests/report/targets_table.awk docs/report/targets.csv >$(BUILD)/report/README.md
+	$(quiet)mv $(BUILD)/report/README.md docs/report/README.md
+
+# Programs of tests/report that link the simulator with all its lanes; pictures as the simulator makes them.
+$(BUILD)/report/%: $(BUILD)/objects/host-16/tests/report/%.o $(BUILD)/objects/host-16/port/report/chains.o \
 		$(call objects,host-16,$(filter-out host/main.c,$(HOST)) $(CORE)) $(call lanes,host-16)
 	$(call say,link)
 	@mkdir -p $(@D)
-	$(quiet)$(CC) $(host_FLAGS) -pthread $^ -lm -ldl -o $@
+	$(quiet)$(CC) $(host_FLAGS) -pthread $^ -lm -ldl '-Wl,-rpath,$$ORIGIN/..' -o $@
 
-COST_COUNTS := $(BUILD)/calibrate/cortex-m4.count
+COST_COUNTS := $(BUILD)/calibrate/cortex-m4.count $(CALIBRATION_SCENES:%=$(BUILD)/golden/%.scene)
+COST_UNSEEN := $(BUILD)/validate/cortex-m4.count $(VALIDATION_SCENES:%=$(BUILD)/golden/%.scene)
 COST_GROUPS := castle,colonnade crowd,factory fence,lshape pins,pipes room,sheets table,torus2
-cost-model: $(BUILD)/report/cost_fit $(COST_COUNTS) ## fit host/cost_model_table.c anew, and say how well it predicts
-	$(quiet)$< $(COST_COUNTS) $(CALIBRATION_SCENES:%=$(BUILD)/golden/%.scene) >$(BUILD)/cost_model_table.c
-	$(quiet)mv $(BUILD)/cost_model_table.c host/cost_model_table.c
-	$(quiet)$< $(COST_COUNTS) $(CALIBRATION_SCENES:%=$(BUILD)/golden/%.scene) --validate $(COST_GROUPS)
+cost-model: $(BUILD)/report/cost_fit $(BUILD)/calibrate/cortex-m4.count ## fit the cost model anew: host/cost_model_table.c
+	$(quiet)$< $(COST_COUNTS) >$(BUILD)/cost_model_table.c && mv $(BUILD)/cost_model_table.c host/cost_model_table.c
+
+COST_INPUTS := $(BUILD)/report/cost_fit $(BUILD)/calibrate/cortex-m4.count $(BUILD)/validate/cortex-m4.count
+cost-model-errors: $(COST_INPUTS) ## say how well the cost model predicts scenes that it was not fitted to
+	$(quiet)$< $(COST_COUNTS) --validate $(COST_GROUPS)
+	$(quiet)$< $(COST_UNSEEN) --check
 
 # One job by a map, by shadow volumes, and with each way to test a pixel.
 FOOTPRINTS := $(basename $(notdir $(wildcard port/footprint/*.c)))
@@ -388,7 +425,7 @@ $(foreach b,host checked,$(foreach d,$(DEPTHS),\
 # First what runs for long when it is built.
 TEST_INPUTS := $(TARGET_DEPTHS:%=$(BUILD)/hashes/%.txt) $(BENCH_COUNTS) $(MINIMAL_DEPTHS:%=$(BUILD)/%/minimal_main.txt) \
 	$(EMBEDDED_DEPTHS:%=$(BUILD)/%/libgnomon.a) $(FOOTPRINTS:%=$(BUILD)/cortex-m4-16/footprint/%.txt) \
-	all $(TEST_PROGRAMS) $(BUILD)/checked-16/gnomon
+	$(REPORT_INPUTS) all $(TEST_PROGRAMS) $(BUILD)/checked-16/gnomon
 
 test: ## install what is missing, build for host and targets, run everything, count what passed and failed
 	$(quiet)tests/setup.sh test
@@ -400,7 +437,8 @@ test-inputs: $(TEST_INPUTS)
 # What shell tests find in their environment.
 export BUILD CC LANES LANE_CLANG
 export GNOMON := $(BUILD)/gnomon
-export EMBEDDED_DEPTHS TARGET_DEPTHS MINIMAL_DEPTHS
+export EMBEDDED_DEPTHS TARGET_DEPTHS MINIMAL_DEPTHS REPORT_CHECKED
+export REPORT_SCENES := $(GOLDEN_SCENES)
 
 PROVE = prove --exec '' -j$$(nproc)
 
@@ -425,4 +463,4 @@ clean: ## remove everything made
 
 always:
 
-.PHONY: all demo demo-pictures hashes accept-hashes bench-targets profile cost-model sizes test test-inputs run-tests help clean always
+.PHONY: all demo demo-pictures hashes accept-hashes bench-targets profile cost-model cost-model-errors report sizes test test-inputs run-tests help clean always

@@ -116,7 +116,7 @@ static int report(job *j)
     int count = j->line.place_count;
     if (sweep_journal_finish(&j->journal, &j->plan, &j->why) ||
         sweep_report_json(&j->plan, j->scenes, count, j->json, &j->why) ||
-        sweep_page_write(j->page, &j->plan, j->scenes, count, j->command, (int)j->request.workers, &j->why))
+        sweep_page_write(j->page, &j->plan, j->scenes, count, j->command, 0, (int)j->request.workers, &j->why))
         return -1;
     sweep_report_left_out(stderr, &j->plan);
     printf("%zu rows in %s, %s and %s\n", count_rows(&j->plan, 1), j->csv, j->json, j->page);

@@ -55,10 +55,11 @@ static void show_scenes(page_job *j, int workers)
     }
 }
 
-static int write_rows(page_job *j, const char *path, const char *command, problem *why)
+static int write_rows(page_job *j, const char *path, const char *command, const char *cost, problem *why)
 {
     sweep_row *rows = memory_take(j->plan->count, sizeof *rows);
     page_input input = {.command = command,
+                        .cost = cost,
                         .scenes = j->shown,
                         .scene_count = (size_t)j->scene_count,
                         .rows = rows,
@@ -73,7 +74,7 @@ static int write_rows(page_job *j, const char *path, const char *command, proble
 }
 
 int sweep_page_write(const char *path, const sweep_plan *plan, const sweep_scene *scenes, int scene_count,
-                     const char *command, int workers, problem *why)
+                     const char *command, const char *cost, int workers, problem *why)
 {
     size_t count = (size_t)scene_count;
     page_job j = {.plan = plan,
@@ -83,7 +84,7 @@ int sweep_page_write(const char *path, const sweep_plan *plan, const sweep_scene
                   .truths = memory_take(count, sizeof *j.truths),
                   .scene_count = scene_count};
     show_scenes(&j, workers);
-    int result = write_rows(&j, path, command, why);
+    int result = write_rows(&j, path, command, cost, why);
     for (int i = 0; i < scene_count; i++)
         image_free(&j.pictures[i]);
     free(j.pictures);

@@ -67,7 +67,8 @@ gn_settings chain_settings(const chain *by, uint16_t width, uint16_t height, uin
     gn_settings settings = gn_default_settings(width, height, map);
     settings.format = GN_RGB565;
     settings.surface = (uint8_t)by->surface;
-    settings.bias = by->bias;
+    settings.bias.unit = by->bias.unit;
+    settings.bias.value = by->bias.value;
     settings.slope = by->slope;
     settings.receiver = by->receiver;
     settings.reconstruction = by->reconstruction;

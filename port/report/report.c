@@ -5,7 +5,7 @@
  *     case SCENE CHAIN WxH MAP PASS               view (where there is one), light, camera, in the order of marks
  *     statistics SCENE CHAIN WxH MAP NAME N ...   of the frame; where they are counted (GN_STATISTICS 1)
  *
- * Files that include this one choose other scenes and sizes. */
+ * Files that include this one choose other scenes and sizes, or have most frames planned alone. */
 #include "chains.h"
 #include "gnomon.h"
 #include "port.h"
@@ -37,6 +37,11 @@ typedef struct packed {
     const gn_camera *camera;
     const gn_light *light;
 } packed;
+
+/* 0: the frame is only planned. */
+#ifndef REPORT_RENDERS
+#define REPORT_RENDERS(frame, plan) 1
+#endif
 
 #define SCENE(name) {#name, &name##_scene, &name##_camera, &name##_light},
 static const packed scenes[] = {REPORT_SCENES};
@@ -197,7 +202,8 @@ static void report(const frame *f)
         port_exit(2);
     }
     write_plan(f, &plan);
-    render(f, context, &plan);
+    if (REPORT_RENDERS(f, &plan))
+        render(f, context, &plan);
     gn_get_statistics(context, &statistics);
     if (GN_STATISTICS)
         write_features(f, &plan, &statistics);
