@@ -148,6 +148,7 @@ check "32K_hold_a_map_of_$wide" test "$(awk -F, '$6 == 32768 && $2 == "mixed" { 
 check "a_map_that_was_asked_for_as_well_has_the_same_row" sh -c "'$gnomon' sweep '$scene' -o '$folder/twins' --depths 16 --methods mixed,constant --maps $wide --budgets 32K --size 48x40 >'$folder/out' &&
     [ \$(awk -F, -v OFS=, '\$2 == \"mixed\" { \$6 = \$NF = \"\"; print }' '$folder/twins/sweep.csv' | wc -l) = 2 ] &&
     [ \$(awk -F, -v OFS=, '\$2 == \"mixed\" { \$6 = \$NF = \"\"; print }' '$folder/twins/sweep.csv' | uniq | wc -l) = 1 ]"
+check "but_for_the_budget" test "$(awk -F, '$2 == "mixed" { print $6 }' "$folder/twins/sweep.csv" | tr '\n' ' ')" = "0 32768 "
 
 # ---- order, interruption ----------------------------------------------------------------------------------------------
 
@@ -158,10 +159,11 @@ check "one_worker" status 0 sweep "$scene" "$table" -o "$folder/one" $few --work
 check "seven_workers" status 0 sweep "$scene" "$table" -o "$folder/seven" $few --workers 7
 check "make_the_same_rows_in_the_same_order" same_rows "$folder/one/sweep.csv" "$folder/seven/sweep.csv"
 
-# interrupted_by SIGNAL STATUS: when ten rows are there, and then it goes on.
+# interrupted_by SIGNAL STATUS: begun from a cut line, stopped when ten rows are there, and then it goes on.
 interrupted_by() {
     rm -rf "$folder/cut"
     mkdir "$folder/cut"
+    head -c 1000 "$folder/one/sweep.csv" >"$folder/cut/sweep.csv"
     (
         until [ -e "$folder/cut/sweep.csv" ] && [ "$(wc -l <"$folder/cut/sweep.csv")" -gt 10 ]; do sleep 0.01; done
         kill -s "$1" "$(cat "$folder/pid")"
