@@ -4,7 +4,7 @@
  *
  * Operations carry most of it. Features say where a loop's operations cost more or less than the mean of all: sums of
  * 64 bits are one operation and two instructions, for instance. Without operations, where no lane counts them, features
- * alone have to do, and errors are five times as large.
+ * alone have to do, and errors are six times as large.
  */
 #ifndef COST_MODEL_H
 #define COST_MODEL_H

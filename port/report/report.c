@@ -3,7 +3,6 @@
  *
  *     plan SCENE CHAIN WxH MAP NAME N ...         what gn_make_plan said
  *     case SCENE CHAIN WxH MAP PASS               view (where there is one), light, camera, in the order of marks
- *     statistics SCENE CHAIN WxH MAP NAME N ...   of the frame; where they are counted (GN_STATISTICS 1)
  *
  * Files that include this one choose other scenes and sizes, or have most frames planned alone. */
 #include "chains.h"
@@ -112,40 +111,6 @@ static void write_plan(const frame *f, const gn_plan *p)
     port_write("\n");
 }
 
-static void write_features(const frame *f, const gn_plan *p, const gn_statistics *s)
-{
-    write_frame("statistics", f);
-    write_number("triangles", p->triangles);
-    write_number("vertices", p->vertices);
-    write_number("edges", p->edges);
-    write_number("view_rounds", p->view_rounds);
-    write_number("layers", p->layers);
-    write_number("cull", p->cull);
-    write_number("light_regions", p->light_regions);
-    write_number("camera_regions", p->camera_regions);
-    write_number("map_rows", p->map_rows);
-    write_number("light_triangles", s->light_triangles);
-    write_number("light_texels", s->light_texels);
-    write_number("view_samples", s->view_samples);
-    write_number("camera_triangles", s->camera_triangles);
-    write_number("camera_fragments", s->camera_fragments);
-    write_number("pixels_shaded", s->pixels_shaded);
-    write_number("pixels_tested", s->pixels_tested);
-    write_number("pixels_outside", s->pixels_outside);
-    write_number("pixels_agreed", s->pixels_agreed);
-    write_number("pixels_virtual", s->pixels_virtual);
-    write_number("pixels_fractional", s->pixels_fractional);
-    write_number("texels_read", s->texels_read);
-    write_number("virtual_samples", s->virtual_samples);
-    write_number("pixels_silhouette", s->pixels_silhouette);
-    write_number("silhouette_edges", s->silhouette_edges);
-    write_number("silhouette_texels", s->silhouette_texels);
-    write_number("volume_faces", s->volume_faces);
-    write_number("volume_fragments", s->volume_fragments);
-    write_number("kind", f->scene->light->kind);
-    port_write("\n");
-}
-
 static void begin(const frame *f, const char *pass)
 {
     write_frame("case", f);
@@ -160,8 +125,8 @@ static void end(const frame *f, gn_status status)
     mark_end();
     if (status == GN_OK)
         return;
-    write_frame("error: status", f);
-    write_number("-", (uint64_t)(-(int)status));
+    write_frame("error", f);
+    write_number("status -", (uint64_t)(-(int)status));
     port_write("\n");
     port_exit(1);
 }
@@ -191,22 +156,18 @@ static void render(const frame *f, gn_context *context, const gn_plan *plan)
 static void report(const frame *f)
 {
     gn_settings settings = chain_settings(f->by, f->width, f->height, f->map ? f->map : 1);
-    gn_plan plan;
+    gn_plan plan = {0};
     gn_context *context;
-    gn_statistics statistics;
     if (gn_make_plan(&plan, f->scene->scene, &settings) != GN_OK ||
         gn_init(&context, f->scene->scene, &settings, memory, sizeof memory) != GN_OK) {
-        write_frame("error: no room", f);
-        write_number("bytes", plan.bytes);
+        write_frame("error", f);
+        write_number("no plan or no room for bytes", plan.bytes);
         port_write("\n");
         port_exit(2);
     }
     write_plan(f, &plan);
     if (REPORT_RENDERS(f, &plan))
         render(f, context, &plan);
-    gn_get_statistics(context, &statistics);
-    if (GN_STATISTICS)
-        write_features(f, &plan, &statistics);
 }
 
 /* All maps of a chain; shadow volumes have none: 0, once. */
