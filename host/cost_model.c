@@ -22,7 +22,7 @@ static frame_kind kind_of(const gn_settings *s, const gn_plan *plan, int light_k
 {
     frame_kind k = {0};
     const gn_reconstruction *how = s->reconstruction;
-    k.spot = light_kind == GN_SPOT;
+    k.spot = light_kind != GN_DIRECTIONAL; /* a point light's faces are spots */
     k.slope = s->surface == GN_SLOPE;
     k.two = plan->layers == GN_LAYERS_TWO;
     k.one = !k.two && !k.slope;
@@ -343,8 +343,9 @@ int cost_model_m4(double instructions[LANE_PASSES], const gn_settings *settings,
                   const gn_statistics *statistics, const uint64_t operations[LANE_PASSES][LANE_OPERATIONS],
                   int light_kind, problem *why)
 {
-    if (light_kind == GN_POINT)
-        return problem_of_usage(why, "no cost model of point lights; expected a directional or a spot light");
+    if (light_kind == GN_POINT && (!operations || settings->faces != &gn_six_faces))
+        return problem_of_usage(why,
+                                "no cost model of point lights; expected six maps, and operations that are counted");
     if (settings->warp == &gn_rectilinear_vertices || settings->warp == &gn_nonorthogonal_vertices)
         return problem_of_usage(why, "no cost model of warps of vertices alone; expected another warp");
     for (int pass = 0; pass < LANE_PASSES; pass++)

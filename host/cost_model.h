@@ -15,7 +15,7 @@
  * program's own core, whose addresses are compared; what says how shadows are made, and the sizes of image and map.
  * plan, statistics: of a frame by a lane that does not count; operations: of the same frame by one that does, or 0.
  * light_kind: gn_light_kind.
- * 0, or -1 and the problem: to point lights and warps of vertices alone nothing was fitted. */
+ * 0, or -1 and the problem: a point light without operations or with one map at a time, or a warp of vertices alone. */
 int cost_model_m4(double instructions[LANE_PASSES], const gn_settings *settings, const gn_plan *plan,
                   const gn_statistics *statistics, const uint64_t operations[LANE_PASSES][LANE_OPERATIONS],
                   int light_kind, problem *why);
