@@ -10,7 +10,7 @@
 /* What is tried first: a pair of test and placement from which the tables expect at most this many times the least
  * error, and at most so many. */
 #define WORTH_A_TRIAL 2.5
-enum { MOST_FIRST = 14, COMBINATIONS = AUTOMATIC_TESTS * AUTOMATIC_MEASURED_PLACEMENTS, MOST_ROUNDS = 3, LEADERS = 3 };
+enum { MOST_FIRST = 14, COMBINATIONS = AUTOMATIC_TESTS * AUTOMATIC_MEASURED_PLACEMENTS, MOST_ROUNDS = 3, LEADERS = 4 };
 
 /* Maps with fewer texels a side are of no use where shadow volumes fit. */
 enum { LEAST_SIDE = 16 };
@@ -285,21 +285,28 @@ static int meets(const search *s, uint64_t bytes)
     return best && best->error <= s->budget.error;
 }
 
-/* The leaders at `high` bytes with smaller maps: the fewest bytes that meet the error. */
-static uint64_t shrink(search *s, uint64_t low, uint64_t high, const automatic_candidate leaders[], int count)
+/* The candidates between `low` bytes, which do not meet the error, and `high`, which do: the fewest that do. */
+static uint64_t shrink(search *s, uint64_t low, uint64_t high, const automatic_candidate candidates[], int count)
 {
     while (!s->failed && (double)high > FINENESS * (double)low) {
         uint64_t middle = (uint64_t)sqrt((double)low * (double)high);
         if (middle <= low)
             break;
         for (int i = 0; i < count; i++)
-            try_at(s, leaders[i], shape_of(&leaders[i]), middle);
+            try_at(s, candidates[i], shape_of(&candidates[i]), middle);
         if (meets(s, middle))
             high = middle;
         else
             low = middle;
     }
     return high;
+}
+
+static uint64_t shrink_leaders(search *s, uint64_t low, uint64_t high)
+{
+    const automatic_budget within = {high, -1};
+    automatic_candidate leaders[LEADERS];
+    return shrink(s, low, high, leaders, list_leaders(s, &within, leaders));
 }
 
 /* Where the tables expect the error: the least of all pairs. */
@@ -313,11 +320,12 @@ static uint64_t expected_bytes(const search *s)
     return bytes < MOST_BYTES ? bytes : MOST_BYTES;
 }
 
-/* From sizes on either side of the error; then the best near the size that is found may be others. */
+/* From sizes on either side of the error to the one between them. There the best may be others: until a fifth less is
+ * too little for all. */
 static void search_error(search *s)
 {
-    enum { STEP = 4, LESSER = 3 };
-    static const double lesser[LESSER] = {0.97, 0.9, 0.8};
+    enum { STEP = 4, FEW = 6 };
+    const double LESS = 0.8;
     uint64_t least = automatic_least_bytes(s->t->packed, &s->t->base), high = expected_bytes(s), low = high;
     look_around(s, high);
     for (; !s->failed && !meets(s, high) && high < MOST_BYTES; look_around(s, high)) {
@@ -329,18 +337,16 @@ static void search_error(search *s)
         low = low / STEP > least ? low / STEP : least;
         look_around(s, low);
     }
-    for (int is_less = 1; is_less && !s->failed && meets(s, high);) {
-        const automatic_budget within = {high, -1};
-        automatic_candidate leaders[LEADERS];
-        high = shrink(s, low, high, leaders, list_leaders(s, &within, leaders));
-        is_less = 0;
-        for (int i = 0; i < LESSER && !is_less && !s->failed; i++) {
-            uint64_t less = (uint64_t)((double)high * lesser[i]);
-            search_bytes(s, less, MOST_FIRST);
-            is_less = meets(s, less);
-            high = is_less ? less : high;
-        }
+    if (s->failed || !meets(s, high))
+        return;
+    high = shrink_leaders(s, low, high);
+    uint64_t less = high;
+    while (!s->failed && meets(s, less) && less > least) {
+        high = less;
+        less = (uint64_t)(LESS * (double)high);
+        search_bytes(s, less, FEW);
     }
+    shrink_leaders(s, less, high);
 }
 
 /* ---- cheapest within both -------------------------------------------------------------------------------------- */
