@@ -18,6 +18,10 @@ enum { LEAST_SIDE = 16 };
 /* Bytes are found to this ratio. */
 #define FINENESS 1.03
 
+/* So much less is searched anew; so many times the errors are hardly more. */
+#define LESS 0.8
+#define HARDLY_MORE 1.25
+
 typedef struct search {
     automatic_trial *t;
     automatic_budget budget;
@@ -84,16 +88,19 @@ static uint8_t usual_surface(const automatic_scene *scene, int is_tried)
                                                                                           : AUTOMATIC_MIXED;
 }
 
-/* The candidate at its map's largest size of that shape; a point light's maps are square. */
-static void try_at(search *s, automatic_candidate candidate, int shape, uint64_t bytes)
+/* The candidate at its map's largest size of that shape; a point light's maps are square. Its error; HUGE_VAL where it
+ * is not tried. */
+static double try_at(search *s, automatic_candidate candidate, int shape, uint64_t bytes)
 {
     if (s->failed || shape < 0 || shape >= AUTOMATIC_SHAPES ||
         (s->t->scene->light == GN_POINT && shape != AUTOMATIC_SQUARE) ||
         !automatic_placement_suits(candidate.placement, s->t->scene) ||
         !automatic_surface_suits(candidate.surface, s->t->scene) ||
         !automatic_fill(&candidate, shape, bytes, s->t->packed, &s->t->base))
-        return;
-    s->failed = automatic_try(s->t, &candidate, s->why) < 0;
+        return HUGE_VAL;
+    long number = automatic_try(s->t, &candidate, s->why);
+    s->failed = number < 0;
+    return s->failed ? HUGE_VAL : s->t->results[number].error;
 }
 
 static int shape_of(const automatic_candidate *candidate)
@@ -255,12 +262,11 @@ static void search_bytes(search *s, uint64_t bytes, int most_first)
  * bytes errs hardly more. */
 static void search_smaller(search *s, uint64_t bytes)
 {
-    const double HARDLY = 1.25;
     while (!s->failed && bytes > 2 * automatic_least_bytes(s->t->packed, &s->t->base)) {
         automatic_result best = *least_error(s, bytes);
         bytes /= 2;
         try_at(s, best.candidate, shape_of(&best.candidate), bytes);
-        if (s->failed || (double)least_error(s, bytes)->wrong > HARDLY * (double)best.wrong)
+        if (s->failed || (double)least_error(s, bytes)->wrong > HARDLY_MORE * (double)best.wrong)
             return;
         search_bytes(s, bytes, MOST_FIRST);
     }
@@ -285,16 +291,18 @@ static int meets(const search *s, uint64_t bytes)
     return best && best->error <= s->budget.error;
 }
 
-/* The candidates between `low` bytes, which do not meet the error, and `high`, which do: the fewest that do. */
+/* Between `low` bytes, with which the candidates do not meet the error, and `high`, with which one does: the fewest
+ * with which one does. */
 static uint64_t shrink(search *s, uint64_t low, uint64_t high, const automatic_candidate candidates[], int count)
 {
     while (!s->failed && (double)high > FINENESS * (double)low) {
         uint64_t middle = (uint64_t)sqrt((double)low * (double)high);
+        double error = HUGE_VAL;
         if (middle <= low)
             break;
         for (int i = 0; i < count; i++)
-            try_at(s, candidates[i], shape_of(&candidates[i]), middle);
-        if (meets(s, middle))
+            error = fmin(error, try_at(s, candidates[i], shape_of(&candidates[i]), middle));
+        if (error <= s->budget.error)
             high = middle;
         else
             low = middle;
@@ -325,7 +333,6 @@ static uint64_t expected_bytes(const search *s)
 static void search_error(search *s)
 {
     enum { STEP = 4, FEW = 6 };
-    const double LESS = 0.8;
     uint64_t least = automatic_least_bytes(s->t->packed, &s->t->base), high = expected_bytes(s), low = high;
     look_around(s, high);
     for (; !s->failed && !meets(s, high) && high < MOST_BYTES; look_around(s, high)) {
@@ -429,6 +436,8 @@ int automatic_search(automatic_choice *choice, automatic_trial *trial, const aut
     try_least(&s);
     if (s.failed)
         return -1;
+    if (!trial->count)
+        return problem_of_usage(why, "the core refuses every map of the scene; expected one that it takes");
     if (trial->results[0].wrong) {
         if (!budget->bytes)
             search_error(&s);

@@ -114,6 +114,14 @@ auto "$lshape" --budget-bytes 8K >/dev/null
 check "solids_have_one_layer_without_front_faces" grep -q '"layers": "first"' "$folder/stats.json"
 check "of_culled_faces" grep -qE '"cull": "(front|back)"' "$folder/stats.json"
 
+sed 's/^light.*/light point position 1 4 1 near 0.1 far 30/; $r /dev/stdin' "$folder/floor.scene" >"$folder/point.scene" <<'END'
+mesh lshape_L.obj surface closed color 1 1 1
+END
+auto "$folder/point.scene" --budget-bytes 16K >/dev/null
+check "a_point_light_has_six_maps_within_the_bytes" holds "12 * $(number map_width) * $(number map_height) + $(number silhouettes) + 0 <= 16384 && $(number map_width) > 24"
+check "no_fit_and_no_warp" grep -q '"parameterisation": "uniform"' "$folder/stats.json"
+check "refuses_fewer_bytes_than_six_maps_have" refuses "expected 972 or more" render "$folder/point.scene" --mask "$folder/new.pgm" --budget-bytes 971
+
 # 604 triangles: 151 bytes for how they face, and at most 8 x 906 for their edges.
 auto "$folder/fence.scene" --budget-bytes 8K --budget-error 0.1 >/dev/null
 check "shadow_volumes_where_no_map_keeps_the_error" grep -q '"shadow": "volumes"' "$folder/stats.json"
