@@ -64,12 +64,12 @@ static void choose(automatic_choice *choice, const automatic_budget *budget, con
                    size_t count)
 {
     size_t best = 0;
+    memset(choice, 0, sizeof *choice);
     for (size_t i = 1; i < count; i++)
         if (automatic_compare(budget, &results[i], &results[best]) < 0)
             best = i;
     choice->taken = results[best];
     choice->keeps = keeps(budget, &results[best]);
-    choice->has_next = 0;
     choice->tried = count;
     for (size_t i = 0; i < count; i++)
         if (is_other(&results[i].candidate, &choice->taken.candidate) &&
@@ -81,7 +81,7 @@ static void choose(automatic_choice *choice, const automatic_budget *budget, con
 
 /* ---- trials ---------------------------------------------------------------------------------------------------- */
 
-/* One layer where solids alone cast. Whether flat meshes cast is seen in a trial, else they are taken to. */
+/* One layer where solids alone cast. Whether flat meshes cast is seen in a trial; without one they are taken to. */
 static uint8_t usual_surface(const automatic_scene *scene, int is_tried)
 {
     return automatic_surface_suits(AUTOMATIC_SECOND, scene) && (is_tried || !scene->flat) ? AUTOMATIC_SECOND
