@@ -85,30 +85,36 @@ static void budget_text(const automatic_budget *budget, char *text, size_t size)
         snprintf(text, size, "%g %%", budget->error);
 }
 
+/* What the taken one errs, and what is known of its cost. */
+static void say_figures(const automatic_choice *choice)
+{
+    const automatic_result *r = &choice->taken;
+    if (!choice->tried)
+        fprintf(stderr, "tables expect %.2g %% wrong, not tried", r->expected);
+    else
+        fprintf(stderr, "%.3g %% wrong on this view", r->error);
+    if (choice->tried && r->candidate.width && r->wrong)
+        fprintf(stderr, " (tables expected %.2g)", r->expected);
+    if (r->cost > 0)
+        fprintf(stderr, ", %.0f instructions a pixel", r->cost);
+}
+
 static void say(const automatic_choice *choice, const automatic_scene *scene, const automatic_budget *budget)
 {
-    char taken[192], next[192], within[64], contents[160];
-    result_text(&choice->taken, taken, sizeof taken);
-    result_text(&choice->next, next, sizeof next);
+    char result[192], within[64], contents[160];
+    const char *why = budget->error < 0 || !choice->keeps ? "least error" : budget->bytes ? "cheapest" : "fewest bytes";
+    result_text(&choice->taken, result, sizeof result);
     budget_text(budget, within, sizeof within);
     automatic_scene_text(scene, contents, sizeof contents);
-    fprintf(stderr, "auto: %s%s: ", choice->keeps ? "" : "nothing keeps the budget; ", taken);
-    if (choice->tried)
-        fprintf(stderr, "%.3g %% wrong on this view", choice->taken.error);
-    if (choice->tried && choice->taken.candidate.width && choice->taken.wrong)
-        fprintf(stderr, " (tables expected %.2g)", choice->taken.expected);
-    if (!choice->tried)
-        fprintf(stderr, "tables expect %.2g %% wrong, not tried", choice->taken.expected);
-    fprintf(stderr, ", %.0f instructions a pixel; %s for %s, %s", choice->taken.cost,
-            budget->error < 0 ? "least error"
-            : !choice->keeps  ? "least error"
-            : !budget->bytes  ? "fewest bytes"
-                              : "cheapest",
-            within, contents);
+    fprintf(stderr, "auto: %s%s: ", choice->keeps ? "" : "nothing keeps the budget; ", result);
+    say_figures(choice);
+    fprintf(stderr, "; %s for %s, %s", why, within, contents);
     if (choice->tried)
         fprintf(stderr, ", %u tried", (unsigned)choice->tried);
-    if (choice->has_next)
-        fprintf(stderr, "; next: %s: %.3g %%", next, choice->next.error);
+    if (choice->has_next) {
+        result_text(&choice->next, result, sizeof result);
+        fprintf(stderr, "; next: %s: %.3g %%", result, choice->next.error);
+    }
     fputs("\n", stderr);
 }
 

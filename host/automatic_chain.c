@@ -114,11 +114,20 @@ int automatic_placement_suits(int placement, const automatic_scene *scene)
 
 /* ---- bytes ----------------------------------------------------------------------------------------------------- */
 
+/* A face of a point light has a border of up to 4 texels on each side, which only the passes ask for. */
+static int is_too_small(const gn_settings *s)
+{
+    enum { LEAST_FACE = 9 };
+    return s->faces && s->shadow == GN_SHADOW_MAP && (s->map_width < LEAST_FACE || s->map_height < LEAST_FACE);
+}
+
 uint64_t automatic_bytes(const automatic_candidate *candidate, const packed_scene *packed, const gn_settings *base)
 {
     gn_settings s = automatic_settings(candidate, base);
     gn_plan plan;
     s.workers = 1;
+    if (is_too_small(&s))
+        return 0;
     if (gn_make_plan(&plan, &packed->scene, &s) != GN_OK)
         return 0;
     if (s.shadow == GN_SHADOW_VOLUMES)

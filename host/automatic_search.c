@@ -10,13 +10,17 @@
 /* What is tried first: a pair of test and placement from which the tables expect at most this many times the least
  * error, and at most so many. */
 #define WORTH_A_TRIAL 2.5
-enum { MOST_FIRST = 14, COMBINATIONS = AUTOMATIC_TESTS * AUTOMATIC_MEASURED_PLACEMENTS, MOST_ROUNDS = 3, LEADERS = 3 };
+enum { MOST_FIRST = 14, COMBINATIONS = AUTOMATIC_TESTS * AUTOMATIC_MEASURED_PLACEMENTS, MOST_ROUNDS = 3, LEADERS = 4 };
 
 /* Maps with fewer texels a side are of no use where shadow volumes fit. */
 enum { LEAST_SIDE = 16 };
 
 /* Bytes are found to this ratio. */
 #define FINENESS 1.03
+
+/* So much less is searched anew; so many times the errors are hardly more. */
+#define LESS 0.8
+#define HARDLY_MORE 1.25
 
 typedef struct search {
     automatic_trial *t;
@@ -60,12 +64,12 @@ static void choose(automatic_choice *choice, const automatic_budget *budget, con
                    size_t count)
 {
     size_t best = 0;
+    memset(choice, 0, sizeof *choice);
     for (size_t i = 1; i < count; i++)
         if (automatic_compare(budget, &results[i], &results[best]) < 0)
             best = i;
     choice->taken = results[best];
     choice->keeps = keeps(budget, &results[best]);
-    choice->has_next = 0;
     choice->tried = count;
     for (size_t i = 0; i < count; i++)
         if (is_other(&results[i].candidate, &choice->taken.candidate) &&
@@ -77,23 +81,26 @@ static void choose(automatic_choice *choice, const automatic_budget *budget, con
 
 /* ---- trials ---------------------------------------------------------------------------------------------------- */
 
-/* One layer where solids alone cast. Whether flat meshes cast is seen in a trial, else they are taken to. */
+/* One layer where solids alone cast. Whether flat meshes cast is seen in a trial; without one they are taken to. */
 static uint8_t usual_surface(const automatic_scene *scene, int is_tried)
 {
     return automatic_surface_suits(AUTOMATIC_SECOND, scene) && (is_tried || !scene->flat) ? AUTOMATIC_SECOND
                                                                                           : AUTOMATIC_MIXED;
 }
 
-/* The candidate at its map's largest size of that shape; a point light's maps are square. */
-static void try_at(search *s, automatic_candidate candidate, int shape, uint64_t bytes)
+/* The candidate at its map's largest size of that shape; a point light's maps are square. Its error; HUGE_VAL where it
+ * is not tried. */
+static double try_at(search *s, automatic_candidate candidate, int shape, uint64_t bytes)
 {
     if (s->failed || shape < 0 || shape >= AUTOMATIC_SHAPES ||
         (s->t->scene->light == GN_POINT && shape != AUTOMATIC_SQUARE) ||
         !automatic_placement_suits(candidate.placement, s->t->scene) ||
         !automatic_surface_suits(candidate.surface, s->t->scene) ||
         !automatic_fill(&candidate, shape, bytes, s->t->packed, &s->t->base))
-        return;
-    s->failed = automatic_try(s->t, &candidate, s->why) < 0;
+        return HUGE_VAL;
+    long number = automatic_try(s->t, &candidate, s->why);
+    s->failed = number < 0;
+    return s->failed ? HUGE_VAL : s->t->results[number].error;
 }
 
 static int shape_of(const automatic_candidate *candidate)
@@ -255,12 +262,11 @@ static void search_bytes(search *s, uint64_t bytes, int most_first)
  * bytes errs hardly more. */
 static void search_smaller(search *s, uint64_t bytes)
 {
-    const double HARDLY = 1.25;
     while (!s->failed && bytes > 2 * automatic_least_bytes(s->t->packed, &s->t->base)) {
         automatic_result best = *least_error(s, bytes);
         bytes /= 2;
         try_at(s, best.candidate, shape_of(&best.candidate), bytes);
-        if (s->failed || (double)least_error(s, bytes)->wrong > HARDLY * (double)best.wrong)
+        if (s->failed || (double)least_error(s, bytes)->wrong > HARDLY_MORE * (double)best.wrong)
             return;
         search_bytes(s, bytes, MOST_FIRST);
     }
@@ -285,21 +291,30 @@ static int meets(const search *s, uint64_t bytes)
     return best && best->error <= s->budget.error;
 }
 
-/* The leaders at `high` bytes with smaller maps: the fewest bytes that meet the error. */
-static uint64_t shrink(search *s, uint64_t low, uint64_t high, const automatic_candidate leaders[], int count)
+/* Between `low` bytes, with which the candidates do not meet the error, and `high`, with which one does: the fewest
+ * with which one does. */
+static uint64_t shrink(search *s, uint64_t low, uint64_t high, const automatic_candidate candidates[], int count)
 {
     while (!s->failed && (double)high > FINENESS * (double)low) {
         uint64_t middle = (uint64_t)sqrt((double)low * (double)high);
+        double error = HUGE_VAL;
         if (middle <= low)
             break;
         for (int i = 0; i < count; i++)
-            try_at(s, leaders[i], shape_of(&leaders[i]), middle);
-        if (meets(s, middle))
+            error = fmin(error, try_at(s, candidates[i], shape_of(&candidates[i]), middle));
+        if (error <= s->budget.error)
             high = middle;
         else
             low = middle;
     }
     return high;
+}
+
+static uint64_t shrink_leaders(search *s, uint64_t low, uint64_t high)
+{
+    const automatic_budget within = {high, -1};
+    automatic_candidate leaders[LEADERS];
+    return shrink(s, low, high, leaders, list_leaders(s, &within, leaders));
 }
 
 /* Where the tables expect the error: the least of all pairs. */
@@ -313,11 +328,11 @@ static uint64_t expected_bytes(const search *s)
     return bytes < MOST_BYTES ? bytes : MOST_BYTES;
 }
 
-/* From sizes on either side of the error; then the best near the size that is found may be others. */
+/* From sizes on either side of the error to the one between them. There the best may be others: until a fifth less is
+ * too little for all. */
 static void search_error(search *s)
 {
-    enum { STEP = 4, LESSER = 3 };
-    static const double lesser[LESSER] = {0.97, 0.9, 0.8};
+    enum { STEP = 4, FEW = 6 };
     uint64_t least = automatic_least_bytes(s->t->packed, &s->t->base), high = expected_bytes(s), low = high;
     look_around(s, high);
     for (; !s->failed && !meets(s, high) && high < MOST_BYTES; look_around(s, high)) {
@@ -329,18 +344,16 @@ static void search_error(search *s)
         low = low / STEP > least ? low / STEP : least;
         look_around(s, low);
     }
-    for (int is_less = 1; is_less && !s->failed && meets(s, high);) {
-        const automatic_budget within = {high, -1};
-        automatic_candidate leaders[LEADERS];
-        high = shrink(s, low, high, leaders, list_leaders(s, &within, leaders));
-        is_less = 0;
-        for (int i = 0; i < LESSER && !is_less && !s->failed; i++) {
-            uint64_t less = (uint64_t)((double)high * lesser[i]);
-            search_bytes(s, less, MOST_FIRST);
-            is_less = meets(s, less);
-            high = is_less ? less : high;
-        }
+    if (s->failed || !meets(s, high))
+        return;
+    high = shrink_leaders(s, low, high);
+    uint64_t less = high;
+    while (!s->failed && meets(s, less) && less > least) {
+        high = less;
+        less = (uint64_t)(LESS * (double)high);
+        search_bytes(s, less, FEW);
     }
+    shrink_leaders(s, less, high);
 }
 
 /* ---- cheapest within both -------------------------------------------------------------------------------------- */
@@ -423,6 +436,8 @@ int automatic_search(automatic_choice *choice, automatic_trial *trial, const aut
     try_least(&s);
     if (s.failed)
         return -1;
+    if (!trial->count)
+        return problem_of_usage(why, "the core refuses every map of the scene; expected one that it takes");
     if (trial->results[0].wrong) {
         if (!budget->bytes)
             search_error(&s);

@@ -60,7 +60,7 @@ int automatic_render(const automatic_candidate *candidate, const packed_scene *p
     if (!failed) {
         gn_get_statistics(f.context, &result->statistics);
         result->wrong = exact ? count_wrong(f.mask, exact) : 0;
-        result->cost = automatic_cost(&f.settings, &f.plan, &result->statistics);
+        result->cost = automatic_cost(&f.settings, &f.plan, &result->statistics, packed->light.kind);
     }
     frame_close(&f);
     return failed ? -1 : 0;

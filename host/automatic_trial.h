@@ -11,7 +11,7 @@ typedef struct automatic_result {
     uint64_t wrong;  /* pixels: false shadow and false light */
     double error;    /* the same, % of the pixels that see a surface */
     double expected; /* the same by the tables */
-    double cost;     /* instructions of a Cortex-M4 a pixel of the image */
+    double cost;     /* instructions of a Cortex-M4 over the pixels that see a surface */
     gn_statistics statistics;
 } automatic_result;
 

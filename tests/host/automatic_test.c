@@ -145,6 +145,8 @@ static void largest_maps(void)
     ok(automatic_fill(&c, AUTOMATIC_SQUARE, 6 * texel * 100 * 100, &packed, &packed.settings) && c.width == 100 &&
            c.height == 100,
        "a_point_light_has_six_maps");
+    ok(automatic_least_bytes(&packed, &packed.settings) == 6 * texel * 9 * 9,
+       "of_a_texel_and_a_border_of_four_on_each_side");
     packed_free(&packed);
 }
 
