@@ -234,6 +234,8 @@ check "an_unknown_depth" refuses "--depths 24" sweep "$scene" -o "$new" --depths
 check "a_budget_that_no_map_fits" refuses "the smallest, 2 x 2, takes $((4 * (2 + padding)))" sweep "$scene" -o "$new" --depths 16 --budgets 7
 # shellcheck disable=SC2086
 check "a_journal_of_another_size_of_image" refuses "another content" sweep "$scene" "$table" -o "$folder/cut" --depths 16 --methods volumes --size 8x7
+sed 's/^light.*/light directional direction 0.3 -1 0.1/' "$scene" >"$folder/other/fence.scene"
+check "a_journal_of_a_scene_that_has_changed" refuses "another content" sweep "$folder/other/fence.scene" -o "$folder/a" --depths 16 --maps 32,120 --budgets 9K,32K --size 48x40
 check "a_journal_of_other_rows" refuses "no row of this sweep" sweep "$scene" -o "$folder/a" --depths 16 --maps 32 --budgets none --size 48x40
 check "a_journal_of_other_columns" sh -c "cp '$csv' '$folder/kept' && sed -i '1s/bias/bais/' '$csv'"
 check "is_refused" refuses "other columns" sweep "$scene" -o "$folder/a" --depths 16 --maps 32,120 --budgets 9K,32K --size 48x40
