@@ -56,7 +56,7 @@ typedef struct job {
     sweep_plan plan;
     sweep_journal journal;
     char *csv, *json, *page;
-    char *command; /* as typed */
+    char *command; /* as it may be typed; 0: not known */
     int stopped;   /* by a signal: its number; else 0 */
     problem why;
 } job;
@@ -81,7 +81,8 @@ static int make_folder(job *j)
     j->csv = sweep_path(folder, "sweep", ".csv");
     j->json = sweep_path(folder, "sweep", ".json");
     j->page = sweep_path(folder, "index", ".html");
-    return file_can_write(j->json, &j->why);
+    return file_can_write(j->csv, &j->why) || file_can_write(j->json, &j->why) || file_can_write(j->page, &j->why) ? -1
+                                                                                                                   : 0;
 }
 
 static int cast_truths(job *j)
@@ -157,16 +158,37 @@ static void release(job *j)
     free(j->command);
 }
 
+/* As a shell takes it. */
+static void write_word(FILE *stream, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+    if (*word && !word[strspn(word, plain)]) {
+        fputs(word, stream);
+        return;
+    }
+    putc('\'', stream);
+    for (; *word; word++)
+        if (*word == '\'')
+            fputs("'\\''", stream);
+        else
+            putc(*word, stream);
+    putc('\'', stream);
+}
+
+/* free() it; 0: there is no memory. */
 static char *join(int argc, char **argv)
 {
-    static const char start[] = "gnomon sweep";
-    size_t length = sizeof start;
-    for (int i = 0; i < argc; i++)
-        length += strlen(argv[i]) + 1;
-    char *command = memory_take(length, 1);
-    strcat(command, start);
-    for (int i = 0; i < argc; i++)
-        strcat(strcat(command, " "), argv[i]);
+    char *command = 0;
+    size_t size = 0;
+    FILE *stream = open_memstream(&command, &size);
+    if (!stream)
+        return 0;
+    fputs("gnomon sweep", stream);
+    for (int i = 0; i < argc; i++) {
+        putc(' ', stream);
+        write_word(stream, argv[i]);
+    }
+    fclose(stream);
     return command;
 }
 

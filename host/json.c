@@ -1,18 +1,26 @@
 #include "json.h"
 
+#include "utf8.h"
+
 #include <inttypes.h>
 #include <math.h>
 
+/* JSON is UTF-8: what is none becomes U+FFFD. */
 static void quote(FILE *stream, const char *string)
 {
+    const uint8_t *at = (const uint8_t *)string;
     putc('"', stream);
-    for (const unsigned char *c = (const unsigned char *)string; *c; c++)
-        if (*c == '"' || *c == '\\')
-            fprintf(stream, "\\%c", *c);
-        else if (*c < 32)
-            fprintf(stream, "\\u%04x", (unsigned)*c);
+    for (int size; *at; at += size ? size : 1) {
+        size = utf8_size(at);
+        if (!size)
+            fputs("\\ufffd", stream);
+        else if (*at == '"' || *at == '\\')
+            fprintf(stream, "\\%c", *at);
+        else if (*at < 32)
+            fprintf(stream, "\\u%04x", (unsigned)*at);
         else
-            putc(*c, stream);
+            fwrite(at, 1, (size_t)size, stream);
+    }
     putc('"', stream);
 }
 

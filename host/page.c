@@ -49,14 +49,6 @@ static void find_budgets(page *p)
     free(maps);
 }
 
-static int some_row_costs(const page_input *in, advice_cost cost)
-{
-    for (size_t i = 0; i < in->row_count; i++)
-        if (advice_cost_of(&in->rows[i], cost) > 0)
-            return 1;
-    return 0;
-}
-
 static int by_error(const void *a, const void *b)
 {
     const sweep_row *p = *(const sweep_row *const *)a, *q = *(const sweep_row *const *)b;
@@ -67,11 +59,12 @@ static int by_error(const void *a, const void *b)
     return p < q ? -1 : 1;
 }
 
+/* scene 0: all. */
 static page_rows rows_of(const page_input *in, const char *scene)
 {
     page_rows rows = {memory_take(in->row_count, sizeof *rows.rows), 0, INFINITY};
     for (size_t i = 0; i < in->row_count; i++)
-        if (strcmp(in->rows[i].scene, scene) == 0) {
+        if (!scene || strcmp(in->rows[i].scene, scene) == 0) {
             rows.rows[rows.count++] = &in->rows[i];
             rows.least_depth = fmin(rows.least_depth, in->rows[i].depth_bits);
         }
@@ -153,10 +146,18 @@ static int write_picture(const page *p, const page_scene *scene, problem *why)
     return result;
 }
 
-static int write_scene(const page *p, size_t number, problem *why)
+static advice_cost cost_of(const page_rows *rows)
 {
+    return advice_best_known(&(advice_rows){rows->rows, rows->count, ADVICE_NO_COST});
+}
+
+/* Its cost is its own: with a point light there are no instructions. */
+static int write_scene(const page *whole, size_t number, problem *why)
+{
+    page own = *whole, *p = &own;
     const page_scene *scene = &p->input->scenes[number];
     page_rows rows = rows_of(p->input, scene->name);
+    own.cost = cost_of(&rows);
     uint8_t *on_front = memory_take(rows.count, 1);
     fprintf(p->stream, "<section id=\"scene%zu\">\n<h2>", number + 1);
     markup_text(p->stream, scene->name);
@@ -319,9 +320,9 @@ int page_write(const char *path, const page_input *input, problem *why)
     if (file_output_open(&output, path, why))
         return -1;
     page p = {.stream = output.stream, .path = path, .input = input};
-    p.cost = some_row_costs(input, ADVICE_INSTRUCTIONS) ? ADVICE_INSTRUCTIONS
-             : some_row_costs(input, ADVICE_HOST_RATIO) ? ADVICE_HOST_RATIO
-                                                        : ADVICE_NO_COST;
+    page_rows all = rows_of(input, 0);
+    p.cost = cost_of(&all);
+    free(all.rows);
     find_budgets(&p);
     page_find_columns(&p);
     int result = write_page(&p, why);

@@ -8,6 +8,21 @@ double advice_cost_of(const sweep_row *row, advice_cost cost)
     return cost == ADVICE_INSTRUCTIONS ? row->m4_pixel : cost == ADVICE_HOST_RATIO ? row->host_ratio : NAN;
 }
 
+static int is_known(const advice_rows *of, advice_cost cost)
+{
+    for (size_t i = 0; i < of->count; i++)
+        if (advice_cost_of(of->rows[i], cost) > 0)
+            return 1;
+    return 0;
+}
+
+advice_cost advice_best_known(const advice_rows *of)
+{
+    return is_known(of, ADVICE_INSTRUCTIONS) ? ADVICE_INSTRUCTIONS
+           : is_known(of, ADVICE_HOST_RATIO) ? ADVICE_HOST_RATIO
+                                             : ADVICE_NO_COST;
+}
+
 /* -1, 0, 1; what is not known comes last. */
 static int compare(double a, double b)
 {

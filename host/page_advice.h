@@ -17,6 +17,9 @@ typedef struct advice_rows {
 /* NAN where it is not known. */
 double advice_cost_of(const sweep_row *row, advice_cost cost);
 
+/* The cost that some row has: instructions rather than time. */
+advice_cost advice_best_known(const advice_rows *of);
+
 /* The row with a map of at most that many resident bytes that errs least; of equal ones the cheapest, then the
  * smallest, then the first. 0: there is none. */
 const sweep_row *advice_best(const advice_rows *of, double bytes);

@@ -140,7 +140,7 @@ void page_write_table(const page *p, const page_rows *rows, const uint8_t *on_fr
 
 /* ---- means ------------------------------------------------------------------------------------------------------ */
 
-/* A chain at one depth, over all scenes that have rows for the budget. */
+/* A chain at one depth, over all scenes that have rows for the budget, and see a surface. */
 typedef struct mean {
     const sweep_row *row; /* one of its rows, for the names */
     double error, cost;   /* NAN: not in every scene, or not known */
@@ -151,12 +151,13 @@ static int same_chain(const sweep_row *a, const sweep_row *b)
     return a->depth_bits == b->depth_bits && strcmp(a->chain, b->chain) == 0;
 }
 
-/* like 0: any chain. */
+/* like 0: any chain that errs by a known number. */
 static const sweep_row *find_row(const page *p, const char *scene, const sweep_row *like, double budget)
 {
     for (size_t i = 0; i < p->input->row_count; i++) {
         const sweep_row *row = &p->input->rows[i];
-        if (row->budget == budget && strcmp(row->scene, scene) == 0 && (!like || same_chain(row, like)))
+        if (row->budget == budget && strcmp(row->scene, scene) == 0 &&
+            (like ? same_chain(row, like) : !isnan(row->error)))
             return row;
     }
     return 0;
@@ -263,7 +264,8 @@ void page_write_means(const page *p)
     mean *chains;
     size_t count = find_chains(p, &chains);
     fprintf(p->stream, "<section id=\"all\">\n<h2>All %zu scenes</h2>\n", p->input->scene_count);
-    fputs("<p>Means over the scenes of the largest maps that fit each budget; chains that not every scene has are left "
+    fputs("<p>Means over the scenes with a surface of the largest maps that fit each budget; chains that not every "
+          "scene has are left "
           "out of the "
           "choice.</p>\n",
           p->stream);

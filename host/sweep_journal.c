@@ -4,9 +4,9 @@
 #include "sweep_csv.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* ---- what is there already ------------------------------------------------------------------------------------- */
@@ -98,15 +98,17 @@ static char *first_line(void)
     return line;
 }
 
-/* Rows are appended under the first line, so that must be ours. *size: of the lines that are complete. */
+/* Rows are appended under the first line, so that must be ours, or the start of ours where it is cut. *size: of the
+ * lines that are complete. */
 static int check_file(const char *path, size_t *size, problem *why)
 {
     file_content content;
     char *names = first_line();
+    size_t length = names ? strlen(names) : 0;
     int result = file_read(&content, path, why);
     for (*size = result ? 0 : content.size; *size && content.bytes[*size - 1] != '\n';)
         --*size;
-    if (!result && *size && (!names || *size < strlen(names) || memcmp(content.bytes, names, strlen(names)) != 0))
+    if (!result && (!names || memcmp(content.bytes, names, content.size < length ? content.size : length) != 0))
         result = problem_at(why, path, 1,
                             "has other columns than this version of gnomon sweep writes; expected a folder without a "
                             "sweep of another version");
@@ -120,20 +122,28 @@ static int fail(const char *path, problem *why)
     return problem_in(why, path, "cannot be written: %s; expected a place that can be written", strerror(errno));
 }
 
+/* Two sweeps at once would end with the rows of the one that ends last. A file system may have no locks: then nobody
+ * holds one. */
+static int hold(const sweep_journal *journal, problem *why)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    if (fcntl(fileno(journal->stream), F_SETLK, &whole) == 0 || (errno != EAGAIN && errno != EACCES))
+        return 0;
+    return problem_in(why, journal->path, "is being written by another gnomon sweep; expected it to end before");
+}
+
 int sweep_journal_open(sweep_journal *journal, sweep_plan *plan, size_t *taken, const char *path, problem *why)
 {
-    struct stat status;
     size_t size = 0;
-    *journal = (sweep_journal){.path = path};
     *taken = 0;
-    if (stat(path, &status) == 0) {
-        if (check_file(path, &size, why) || (size && take_rows(plan, taken, path, why)))
-            return -1;
-        if (truncate(path, (off_t)size) != 0)
-            return fail(path, why);
-    }
-    journal->stream = fopen(path, "ab");
+    *journal = (sweep_journal){fopen(path, "ab"), path};
     if (!journal->stream)
+        return fail(path, why);
+    /* held anew after it is read: whoever closes a file lets go of it, though it is open elsewhere */
+    if (hold(journal, why) || check_file(path, &size, why) || (size && take_rows(plan, taken, path, why)) ||
+        hold(journal, why))
+        return -1;
+    if (ftruncate(fileno(journal->stream), (off_t)size) != 0)
         return fail(path, why);
     if (!size)
         sweep_csv_write_names(journal->stream);
@@ -163,12 +173,13 @@ void sweep_journal_close(sweep_journal *journal)
 int sweep_journal_finish(sweep_journal *journal, const sweep_plan *plan, problem *why)
 {
     file_output output;
-    sweep_journal_close(journal);
     if (file_output_open(&output, journal->path, why))
         return -1;
     sweep_csv_write_names(output.stream);
     for (size_t i = 0; i < plan->count; i++)
         if (plan->cells[i].is_done)
             sweep_csv_write(output.stream, &plan->cells[i].row);
-    return file_output_finish(&output, why);
+    int result = file_output_finish(&output, why);
+    sweep_journal_close(journal); /* held until its place is taken */
+    return result;
 }

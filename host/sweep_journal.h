@@ -15,7 +15,7 @@ typedef struct sweep_journal {
 
 /* Take the rows that are there already into the plan's cells, and open the file for more; path outlives the journal.
  * *taken: how many. 0, or -1 and the problem: among others rows that the plan does not have, of another scene, another
- * version or other options. */
+ * version or other options, and another sweep that has it open. */
 int sweep_journal_open(sweep_journal *journal, sweep_plan *plan, size_t *taken, const char *path, problem *why);
 
 /* Append the cell's row and those of its twins, which are done with it. 0, or -1 and the problem. */

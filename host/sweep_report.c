@@ -2,9 +2,11 @@
 
 #include "choices.h"
 #include "file.h"
+#include "memory.h"
+#include "page_advice.h"
 #include "sweep_csv.h"
 
-#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- JSON ------------------------------------------------------------------------------------------------------ */
@@ -89,28 +91,31 @@ int sweep_report_json(const sweep_plan *plan, const sweep_scene *scenes, int sce
 
 /* ---- lines ----------------------------------------------------------------------------------------------------- */
 
-static const sweep_cell *best_of(const sweep_plan *plan, const sweep_scene *scene, long budget)
+/* Of the scene; the result has room for all. */
+static size_t take_rows(const sweep_row **rows, const sweep_plan *plan, const sweep_scene *scene)
 {
-    const sweep_cell *best = 0;
-    for (size_t i = 0; i < plan->count; i++) {
-        const sweep_cell *c = &plan->cells[i];
-        if (c->is_done && c->scene == scene && c->budget == budget && c->map && !isnan(c->row.error) &&
-            (!best || c->row.error < best->row.error))
-            best = c;
-    }
-    return best;
+    size_t count = 0;
+    for (size_t i = 0; i < plan->count; i++)
+        if (plan->cells[i].is_done && plan->cells[i].scene == scene)
+            rows[count++] = &plan->cells[i].row;
+    return count;
 }
 
 void sweep_report_best(FILE *stream, const sweep_plan *plan, const sweep_request *request, const sweep_scene *scenes,
                        int scene_count)
 {
-    for (int i = 0; i < scene_count; i++)
+    const sweep_row **rows = memory_take(plan->count, sizeof *rows);
+    for (int i = 0; i < scene_count; i++) {
+        advice_rows of = {rows, take_rows(rows, plan, &scenes[i]), ADVICE_NO_COST};
+        of.cost = advice_best_known(&of);
         for (int b = 0; b < request->budget_count; b++) {
-            const sweep_cell *best = best_of(plan, &scenes[i], request->budgets[b]);
+            const sweep_row *best = advice_best(&of, (double)request->budgets[b]);
             if (best)
-                fprintf(stream, "%s, %ld bytes: %s, map %u, %d bits: %.3f %% wrong\n", scenes[i].name,
-                        request->budgets[b], best->chain->name, (unsigned)best->map, best->depth_bits, best->row.error);
+                fprintf(stream, "%s, %ld bytes: %s, map %.0f, %.0f bits: %.3f %% wrong\n", scenes[i].name,
+                        request->budgets[b], best->chain, best->map, best->depth_bits, best->error);
         }
+    }
+    free(rows);
 }
 
 static int is_first_of_its_reason(const sweep_plan *plan, size_t index)

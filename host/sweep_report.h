@@ -11,7 +11,7 @@
 int sweep_report_json(const sweep_plan *plan, const sweep_scene *scenes, int scene_count, const char *path,
                       problem *why);
 
-/* For each scene and budget the chain that errs least there. */
+/* For each scene and budget what the page says to take: what errs least within it. */
 void sweep_report_best(FILE *stream, const sweep_plan *plan, const sweep_request *request, const sweep_scene *scenes,
                        int scene_count);
 

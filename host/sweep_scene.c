@@ -6,6 +6,7 @@
 #include "memory.h"
 #include "stage_hash.h"
 #include "truth.h"
+#include "utf8.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -31,8 +32,9 @@ static int is_taken(const sweep_scene *scenes, int count, const char *name)
     return 0;
 }
 
-/* The file's name without folder and extension. A name becomes part of file names and of CSV: what cannot be printed
- * becomes an underscore. The second of two equal ones ends in -2, and so on. */
+/* The file's name without folder and extension. A name becomes part of file names and of CSV: what cannot be printed,
+ * or is no UTF-8 (after the cut of a long name as well), becomes underscores. The second of two equal ones ends in -2,
+ * and so on. */
 static void name_scene(sweep_scene *scenes, int index)
 {
     enum { ROOM_OF_NUMBER = 12 };
@@ -41,9 +43,13 @@ static void name_scene(sweep_scene *scenes, int index)
     size_t length = dot && dot != start ? (size_t)(dot - start) : strlen(start), most = sizeof s->name - ROOM_OF_NUMBER;
     length = length < most ? length : most - 1;
     memcpy(s->name, start, length);
-    for (size_t i = 0; i < length; i++)
-        if ((unsigned char)s->name[i] < 32 || s->name[i] == 127)
-            s->name[i] = '_';
+    for (size_t i = 0, size; i < length; i += size) {
+        size = (size_t)utf8_size((const uint8_t *)s->name + i);
+        if (size && (unsigned char)s->name[i] >= 32 && s->name[i] != 127)
+            continue;
+        s->name[i] = '_';
+        size = 1;
+    }
     for (int number = 2; is_taken(scenes, index, s->name); number++)
         snprintf(s->name + length, ROOM_OF_NUMBER, "-%d", number);
 }

@@ -198,6 +198,22 @@ check "more_is_added_to_what_is_there" more_is_added
 check "a_cut_first_line_too" sh -c "printf 'scene,ch' >'$folder/cut/sweep.csv' &&
     '$gnomon' sweep '$table' -o '$folder/cut' --depths 16 --methods volumes --size 8x6 && [ \$(wc -l <'$folder/cut/sweep.csv') = 2 ]"
 
+# A sweep that is stopped in the middle of its work still has the folder.
+two_at_once_are_refused() {
+    rm -rf "$folder/both"
+    # shellcheck disable=SC2086
+    "$gnomon" sweep "$scene" "$table" -o "$folder/both" $few --workers 1 >"$folder/first" 2>&1 &
+    first=$!
+    until [ -e "$folder/both/sweep.csv" ] && [ "$(wc -l <"$folder/both/sweep.csv")" -gt 2 ]; do sleep 0.01; done
+    kill -s STOP $first
+    # shellcheck disable=SC2086
+    refuses "another gnomon sweep" sweep "$scene" "$table" -o "$folder/both" $few --workers 1
+    refused=$?
+    kill -s CONT $first
+    wait $first && [ $refused = 0 ] && same_rows "$folder/one/sweep.csv" "$folder/both/sweep.csv"
+}
+check "two_at_once_are_refused" two_at_once_are_refused
+
 # ---- odd scenes -------------------------------------------------------------------------------------------------------
 
 mkdir "$folder/other"
@@ -216,6 +232,23 @@ sed 's/^light.*/light directional direction 0.3 1 0.1/' "$scene" >"$folder/dark.
 check "nothing_may_be_lit" status 0 sweep "$folder/dark.scene" -o "$folder/dark" --depths 16 --maps 24 --budgets none --size 12x10 --methods constant,constant-best,silhouette/dv,volumes
 check "then_no_shadow_is_false" test "$(column false_shadow "$folder/dark/sweep.csv" | sort -u)" = 0
 
+sweep_of_odd_scenes="--depths 16 --maps none --budgets 9K --methods constant,silhouette,volumes --size 12x10"
+# shellcheck disable=SC2086
+check "a_scene_without_instructions_is_measured_by_time" sh -c "'$gnomon' sweep '$folder/point.scene' '$folder/nothing.scene' '$scene' -o '$folder/mixed' $sweep_of_odd_scenes &&
+    grep -q 'times constant' '$folder/mixed/index.html' && grep -q 'instructions a pixel' '$folder/mixed/index.html'"
+check "means_are_over_scenes_with_a_surface" grep -q "wrong in the mean" "$folder/mixed/index.html"
+# Of a name 47 bytes are kept, here 23 letters of two and half of the next.
+letters=$(printf '\303\244%.0s' 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23)
+cp "$scene" "$folder/$letters$letters.scene"
+odd=$(printf 'it\377s <b>,"c')
+cp "$scene" "$folder/$odd.scene"
+# shellcheck disable=SC2086
+check "names_may_be_odd" status 0 sweep "$folder/$letters$letters.scene" "$folder/$odd.scene" -o "$folder/odd" $sweep_of_odd_scenes
+check "half_a_letter_becomes_an_underscore" test -e "$folder/odd/${letters}_.truth.pgm"
+check "what_is_no_letter_too" test -e "$folder/odd/it_s <b>,\"c.truth.pgm"
+check "json_holds_none" grep -q 'it.ufffds <b>,."c.scene"' "$folder/odd/sweep.json"
+check "the_command_can_be_typed_again" grep -q "c.scene&#39; -o " "$folder/odd/index.html"
+
 # ---- refusals -----------------------------------------------------------------------------------------------------------
 
 new=$folder/new
@@ -232,6 +265,12 @@ check "no_size_at_all" refuses "leave no map" sweep "$scene" -o "$new" --maps no
 check "bytes_in_another_unit" refuses "'32G'" sweep "$scene" -o "$new" --budgets 32G
 check "an_unknown_depth" refuses "--depths 24" sweep "$scene" -o "$new" --depths 24
 check "a_budget_that_no_map_fits" refuses "the smallest, 2 x 2, takes $((4 * (2 + padding)))" sweep "$scene" -o "$new" --depths 16 --budgets 7
+mkdir -p "$folder/taken/index.html" "$folder/foreign"
+check "a_folder_in_the_pages_place" refuses "is a folder" sweep "$scene" -o "$folder/taken" --depths 16
+check "before_anything_is_measured" test ! -e "$folder/taken/sweep.csv"
+printf 'notes' >"$folder/foreign/sweep.csv"
+check "what_is_no_start_of_a_journal" refuses "other columns" sweep "$scene" -o "$folder/foreign" --depths 16
+check "stays" grep -q notes "$folder/foreign/sweep.csv"
 # shellcheck disable=SC2086
 check "a_journal_of_another_size_of_image" refuses "another content" sweep "$scene" "$table" -o "$folder/cut" --depths 16 --methods volumes --size 8x7
 sed 's/^light.*/light directional direction 0.3 -1 0.1/' "$scene" >"$folder/other/fence.scene"
