@@ -49,6 +49,17 @@ static int run_passes(frame *f, const packed_scene *packed, double *share, probl
     return 0;
 }
 
+/* Regions as a firmware has them. Each sets up anew what crosses it, above all the sides of volumes, of which the
+ * simulator would have one region. */
+static void use_small_regions(gn_settings *settings, const packed_scene *packed)
+{
+    gn_plan plan;
+    if (gn_make_plan(&plan, &packed->scene, settings) != GN_OK)
+        return; /* frame_open says what is wrong */
+    settings->region_width = plan.region_width;
+    settings->region_height = plan.region_height;
+}
+
 int automatic_render(const automatic_candidate *candidate, const packed_scene *packed, const gn_settings *base,
                      const truth *exact, automatic_result *result, double *share, problem *why)
 {
@@ -56,6 +67,7 @@ int automatic_render(const automatic_candidate *candidate, const packed_scene *p
     gn_settings settings = automatic_settings(candidate, base);
     settings.mask = 1;
     settings.format = GN_NO_COLOUR;
+    use_small_regions(&settings, packed);
     int failed = frame_open(&f, &packed->scene, &settings, 0, why) || run_passes(&f, packed, share, why);
     if (!failed) {
         gn_get_statistics(f.context, &result->statistics);
