@@ -321,8 +321,7 @@ void gn_find_face_points(const gn_context *context, gn_points *points, uint32_t 
     }
 }
 
-/* ---- the choice ---------------------------------------------------------------------------------------------------
- */
+/* ---- the choice -------------------------------------------------------------------------------------------------- */
 
 static void shade_nearest(gn_context *context, gn_worker *worker, uint32_t from, int32_t x, int32_t y, int32_t count)
 {

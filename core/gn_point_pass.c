@@ -50,8 +50,7 @@ static gn_status look(gn_context *context, const gn_camera *camera, uint32_t *fo
     return status;
 }
 
-/* ---- one map at a time ---------------------------------------------------------------------------------------------
- */
+/* ---- one map at a time ------------------------------------------------------------------------------------------- */
 
 static int has_fractions(const gn_settings *settings)
 {
@@ -188,8 +187,7 @@ static gn_status draw_one_by_one(gn_context *context, uint32_t needed, const gn_
 
 const gn_faces gn_one_face = {1, lay_out, refuse_camera, find_points};
 
-/* ---- the pass ------------------------------------------------------------------------------------------------------
- */
+/* ---- the pass ---------------------------------------------------------------------------------------------------- */
 
 static gn_status draw_all(gn_context *context, uint32_t needed, const gn_camera *camera, gn_flush flush, void *user)
 {

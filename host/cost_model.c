@@ -63,8 +63,7 @@ static double rows_of(double triangles, double centres)
     return sqrt(triangles * centres);
 }
 
-/* ---- with operations -----------------------------------------------------------------------------------------------
- */
+/* ---- with operations --------------------------------------------------------------------------------------------- */
 
 static void put_operations(cost_features *f, const uint64_t operations[LANE_OPERATIONS])
 {
@@ -124,8 +123,7 @@ static void correct_camera(cost_features *f, const frame_kind *k, const gn_plan 
     put(f, "pixels decided by smooth silhouettes", (double)n->pixels_silhouette * k->smooth);
 }
 
-/* ---- without -------------------------------------------------------------------------------------------------------
- */
+/* ---- without ----------------------------------------------------------------------------------------------------- */
 
 /* What every region draws of the camera's triangles: in the camera pass once, in the view pass once a round. */
 static void put_visibility(cost_features *f, const frame_kind *k, const gn_plan *plan, const gn_statistics *n,
@@ -253,8 +251,7 @@ static void sum_volumes_camera(cost_features *f, const frame_kind *k, const gn_p
     put(f, "fragments of volumes", fragments);
 }
 
-/* ---- both ----------------------------------------------------------------------------------------------------------
- */
+/* ---- both -------------------------------------------------------------------------------------------------------- */
 
 static void sum_job(cost_features *f, cost_job job, const frame_kind *k, const gn_plan *plan, const gn_statistics *n)
 {

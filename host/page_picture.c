@@ -9,8 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- BMP (BITMAPFILEHEADER, BITMAPINFOHEADER): little-endian, rows from below, padded to 4 bytes ------------------
- */
+/* ---- BMP (BITMAPFILEHEADER, BITMAPINFOHEADER): little-endian, rows from below, padded to 4 bytes ----------------- */
 
 enum { BMP_HEADERS = 54, BMP_PALETTE = 256 };
 

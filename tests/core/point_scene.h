@@ -135,8 +135,7 @@ static TAP_UNUSED int same_pictures(const frame *a, const frame *b)
     return memcmp(a->mask, b->mask, mask_bytes(a)) == 0 && memcmp(a->colour, b->colour, colour_bytes(a)) == 0;
 }
 
-/* ---- rays and faces ------------------------------------------------------------------------------------------------
- */
+/* ---- rays and faces ---------------------------------------------------------------------------------------------- */
 
 /* The face of a point as seen from the light by the definition, and its two ratios along right and down of its map;
  * *margin: by how much the largest magnitude exceeds the next. */

@@ -28,8 +28,7 @@ static uint64_t texels_drawn(const frame *f)
     return s.light_texels;
 }
 
-/* ---- what happens between frames -----------------------------------------------------------------------------------
- */
+/* ---- what happens between frames --------------------------------------------------------------------------------- */
 
 /* Which of a scene's objects stand still, and whether all that they cast depends on is what it was. */
 typedef struct events {
@@ -119,8 +118,7 @@ static void return_exiles(events *e)
     }
 }
 
-/* ---- layers and maps -----------------------------------------------------------------------------------------------
- */
+/* ---- layers and maps --------------------------------------------------------------------------------------------- */
 
 /* A scene on the map of grid_light: depths of a few levels, corners on half texels, so that ties are common. */
 static void make_scene(random_scene *r, int32_t width, int32_t height)
@@ -385,8 +383,7 @@ static void layers_of_one_scene(uint64_t n, tally *count)
         shape_free(&r.shapes[i]);
 }
 
-/* ---- pictures by every chain ---------------------------------------------------------------------------------------
- */
+/* ---- pictures by every chain ------------------------------------------------------------------------------------- */
 
 enum { BOXES = 6, LEVELS = 2, OBJECTS = BOXES + LEVELS };
 
@@ -552,8 +549,7 @@ static void pictures_of_one_scene(uint64_t n, tally *count, pixels *seen)
     free_yard(&y);
 }
 
-/* ---- point lights --------------------------------------------------------------------------------------------------
- */
+/* ---- point lights ------------------------------------------------------------------------------------------------ */
 
 /* The faces' maps that a pass has drawn, all or one, and what was drawn beside them. */
 static int same_faces(const twins *t)
@@ -665,8 +661,7 @@ static void faces_of_one_scene(uint64_t n, tally *count, pixels *seen)
     free_stage(&st);
 }
 
-/* ---- by hand -------------------------------------------------------------------------------------------------------
- */
+/* ---- by hand ----------------------------------------------------------------------------------------------------- */
 
 /* Levels over a map of one texel: one that stands still at a depth of 300, another one anywhere. */
 typedef struct two_levels {
@@ -729,8 +724,7 @@ static void depths_by_hand(void)
     ok(good, "the depths of a level that stands and one that moves are those worked out by hand");
 }
 
-/* ---- what is promised ----------------------------------------------------------------------------------------------
- */
+/* ---- what is promised -------------------------------------------------------------------------------------------- */
 
 static void plans_say_what_is_kept(void)
 {

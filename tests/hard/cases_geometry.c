@@ -286,8 +286,7 @@ static int poster_by_hand(const double p[3])
     return lit_unless(in(p[0], -0.9 + root_3 / 64, -0.1 + root_3 / 64) && fabs(p[2]) < 0.5);
 }
 
-/* ---- a sheet that is bent towards the light ------------------------------------------------------------------------
- */
+/* ---- a sheet that is bent towards the light ---------------------------------------------------------------------- */
 
 /* A valley of eight strips along z, slopes -0.8 to 0.8 in steps of 1.6/7 = 0.229, under an overhead sun; a plate over
  * it. The creases stand one pixel behind a border of texels, half a pixel before the texel's centre: the column of

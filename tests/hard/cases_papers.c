@@ -17,8 +17,7 @@ static gn_bias texels(double count)
     return (gn_bias){GN_BIAS_TEXELS, (uint32_t)lround(65536 * count)};
 }
 
-/* ---- W&M, figure 4: a table, its legs on the floor -----------------------------------------------------------------
- */
+/* ---- W&M, figure 4: a table, its legs on the floor --------------------------------------------------------------- */
 
 /* Map 128: t = 1/32, legs 2 t thick. */
 static void build_table(builder *b, double bias)
@@ -105,8 +104,7 @@ static void check_no_bias_suits(hard_row *row)
     row_remark(row, "Best of 1/8 to 32 texels: %.2g texels, %.2f %% of its own.", at, least);
 }
 
-/* ---- W&M, figure 7: a solid thinner than what a texel spans --------------------------------------------------------
- */
+/* ---- W&M, figure 7: a solid thinner than what a texel spans ------------------------------------------------------ */
 
 static const double thin = 0.1 / 16; /* t / 10 */
 
@@ -186,8 +184,7 @@ static int silhouette_by_hand(const double p[3])
     return p[1] > 0.01 ? BY_HAND_LIT : lit_unless(in(p[0], -0.575, 0.625) && fabs(p[2]) < 0.8);
 }
 
-/* ---- W&E, figure 3: a receiver nearer to its occluder than the bias ------------------------------------------------
- */
+/* ---- W&E, figure 3: a receiver nearer to its occluder than the bias ---------------------------------------------- */
 
 /* A plate 2 t thick, 2 t above the floor; e = 60. Its front is 4 t / sin 60 = 4.6 t before the floor along the light.
  * The shadow can be seen for 4 t cot 60 = 0.144 m behind it, over 1.6 m: 0.231 m^2, 2.8 %, of which half a texel all
@@ -208,8 +205,7 @@ static int near_receiver_by_hand(const double p[3])
     return lit_unless(in(p[0], -0.8 + 0.125 / root_3, 0.4 + 0.25 / root_3) && fabs(p[2]) < 0.8);
 }
 
-/* ---- W&E, figure 4: the midpoint without back faces ----------------------------------------------------------------
- */
+/* ---- W&E, figure 4: the midpoint without back faces -------------------------------------------------------------- */
 
 /* (a) Map 16: t = 1/4. The block's top, y = 1.1, ends at x = -0.37, just right of the centre of the texel from -0.5 to
  * -0.25. That centre sees the plate, y = 1.7, and then the floor: their middle, 0.85, is below the block's top, which
@@ -270,8 +266,7 @@ static int steep_receiver_by_hand(const double p[3])
     return p[0] < -0.1 ? BY_HAND_LIT : lit_unless(fabs(p[2]) < 0.75);
 }
 
-/* ---- W&E, figure 5: an L over a plane, map far too small -----------------------------------------------------------
- */
+/* ---- W&E, figure 5: an L over a plane, map far too small --------------------------------------------------------- */
 
 /* Map 32: t = 1/8. The upright leans 20 degrees over the base, so that the base is in shadow near the crease; the front
  * leans back by 25 degrees: it is lit, and falls steeply to its lower edge. */

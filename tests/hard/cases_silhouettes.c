@@ -94,8 +94,7 @@ static int by_hand(const double p[3])
     return BY_HAND_LIT;
 }
 
-/* ---- where one edge is alone ---------------------------------------------------------------------------------------
- */
+/* ---- where one edge is alone ------------------------------------------------------------------------------------- */
 
 static const double texel = 1.0 / 16;
 
@@ -193,8 +192,7 @@ static void check_edges(hard_row *row, size_t least)
     }
 }
 
-/* ---- the scenes ----------------------------------------------------------------------------------------------------
- */
+/* ---- the scenes -------------------------------------------------------------------------------------------------- */
 
 /* Figure 7, two silhouettes cross in a texel: the shadows of two rectangles, 0.5 and 0.8 m high, form a cross on the
  * floor, and the higher one's lies across the lower one. */

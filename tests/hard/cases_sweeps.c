@@ -124,8 +124,7 @@ static void run_directions(hard_row *row)
     reset();
 }
 
-/* ---- the light moves by less than a texel --------------------------------------------------------------------------
- */
+/* ---- the light moves by less than a texel ------------------------------------------------------------------------ */
 
 /* What was seen of a pixel on the way of the light's box through a texel. */
 enum {
@@ -224,8 +223,7 @@ static void run_translation(hard_row *row)
     reset();
 }
 
-/* ---- maps and images of all sizes ----------------------------------------------------------------------------------
- */
+/* ---- maps and images of all sizes -------------------------------------------------------------------------------- */
 
 static void run_maps(hard_row *row)
 {
@@ -304,8 +302,7 @@ static void run_images(hard_row *row)
     reset();
 }
 
-/* ---- ways to cut the work ------------------------------------------------------------------------------------------
- */
+/* ---- ways to cut the work ---------------------------------------------------------------------------------------- */
 
 /* Invariant 4: the result depends neither on regions nor on workers. */
 static void run_cuts(hard_row *row)

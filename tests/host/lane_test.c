@@ -252,8 +252,7 @@ static void check_background(const lane *l, const packed_scene *packed)
     lane_frame_free(&high);
 }
 
-/* ---- plans --------------------------------------------------------------------------------------------------------
- */
+/* ---- plans ------------------------------------------------------------------------------------------------------- */
 
 /* A receiver with planes needs 40 bytes an entry of GN_COLOUR_CACHE (gnomon.h), and a firmware has 64 of them. */
 static void check_plan(const lane *l, const packed_scene *packed)

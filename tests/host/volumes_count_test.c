@@ -27,8 +27,7 @@ __extension__ typedef __int128 exact;
 
 enum { MOST_PIXELS = VOLUME_MOST_SIZE * VOLUME_MOST_SIZE, MOST_NUMBERS = VOLUME_MOST_MESHES * VOLUME_MOST_TRIANGLES };
 
-/* ---- triangles -----------------------------------------------------------------------------------------------------
- */
+/* ---- triangles --------------------------------------------------------------------------------------------------- */
 
 typedef struct caster {
     uint32_t identifier;
@@ -160,8 +159,7 @@ static void set_casters(void)
     }
 }
 
-/* ---- coverage ------------------------------------------------------------------------------------------------------
- */
+/* ---- coverage ---------------------------------------------------------------------------------------------------- */
 
 /* One edge of a clockwise triangle and the centre of a pixel: on its side, or on it where it is a top or left edge. */
 static int holds(const gn_vertex *from, const gn_vertex *to, int64_t x, int64_t y)
@@ -196,8 +194,7 @@ static int turns_round(const gn_outline *o, int32_t x, int32_t y)
     return sum;
 }
 
-/* ---- what is visible -----------------------------------------------------------------------------------------------
- */
+/* ---- what is visible --------------------------------------------------------------------------------------------- */
 
 static void see_piece(const gn_vertex *p, const gn_vertex *q, const gn_vertex *r, const gn_q_plane *plane,
                       uint32_t identifier)
@@ -249,8 +246,7 @@ static void see(const caster *c)
     see_piece(&v[0], &v[1], &v[2], &plane, c->identifier);
 }
 
-/* ---- points and planes ---------------------------------------------------------------------------------------------
- */
+/* ---- points and planes ------------------------------------------------------------------------------------------- */
 
 typedef struct compared {
     gn_nearness plane;
@@ -331,8 +327,7 @@ static void find_points(void)
         set_points(&b.casters[i]);
 }
 
-/* ---- faces ---------------------------------------------------------------------------------------------------------
- */
+/* ---- faces ------------------------------------------------------------------------------------------------------- */
 
 /* A face: behind all points (plane 0), or compared with them; always behind the points of its own triangles. */
 static void count_face(const gn_outline *o, int32_t winding, const compared *plane, uint32_t own0, uint32_t own1)
@@ -473,8 +468,7 @@ static void count_frustum_of_light(void)
     }
 }
 
-/* ---- where counting begins -----------------------------------------------------------------------------------------
- */
+/* ---- where counting begins --------------------------------------------------------------------------------------- */
 
 /* Which way q lies from p, about where the view's direction stands on the screen. */
 static int turn_between(const gn_place *p, const gn_place *q)
@@ -542,8 +536,7 @@ static void count_all(void)
         count_frustum_of_light();
 }
 
-/* ---- against the core ----------------------------------------------------------------------------------------------
- */
+/* ---- against the core -------------------------------------------------------------------------------------------- */
 
 typedef struct tally {
     uint64_t scenes, skipped, refused, pixels, counted, nonzero, lit;

@@ -41,8 +41,7 @@ static void fail(const char *which, const char *what)
     exit(2);
 }
 
-/* ---- what was counted, and the same frames here --------------------------------------------------------------------
- */
+/* ---- what was counted, and the same frames here ------------------------------------------------------------------ */
 
 static int is_frame(const counted_frame *f, const char *scene, const char *by, const char *size, int map)
 {
@@ -131,8 +130,7 @@ static void render_scene(const char *path)
     packed_free(&packed);
 }
 
-/* ---- least squares -------------------------------------------------------------------------------------------------
- */
+/* ---- least squares ----------------------------------------------------------------------------------------------- */
 
 typedef struct fit {
     int count, sums;
@@ -213,8 +211,7 @@ static void fit_without(model *m, const char *left_out)
     }
 }
 
-/* ---- what comes of it ----------------------------------------------------------------------------------------------
- */
+/* ---- what comes of it -------------------------------------------------------------------------------------------- */
 
 static const char *const job_names[COST_JOBS] = {"view", "light", "camera", "volumes_light", "volumes_camera"};
 

@@ -47,8 +47,7 @@ static void fail(const char *which, const char *what)
     exit(2);
 }
 
-/* ---- counts
- * ---------------------------------------------------------------------------------------------------------- */
+/* ---- counts ------------------------------------------------------------------------------------------------------ */
 
 static size_t find_cell(const char *scene, const char *by, const char *size, int map)
 {
@@ -122,8 +121,7 @@ static void read_target(const char *counts, const char *flash, int target)
     fclose(in);
 }
 
-/* ---- errors
- * ---------------------------------------------------------------------------------------------------------- */
+/* ---- errors ------------------------------------------------------------------------------------------------------ */
 
 static void compare(sweep_row *row, const sweep_scene *scene, const uint8_t *mask)
 {
@@ -206,8 +204,7 @@ static void take_figures(size_t i)
     row->m4_pixel = (row->m4_view + row->m4_light + row->m4_camera) / row->pixels;
 }
 
-/* ---- the cost model
- * -------------------------------------------------------------------------------------------------- */
+/* ---- the cost model ---------------------------------------------------------------------------------------------- */
 
 static double predict(const sweep_cell *cell)
 {
@@ -247,8 +244,7 @@ static void check_model(void)
     printf("model %d frames, %.2f %% mean error, %.2f %% worst\n", frames, sum / frames, worst);
 }
 
-/* ---- what comes of it
- * ------------------------------------------------------------------------------------------------ */
+/* ---- what comes of it -------------------------------------------------------------------------------------------- */
 
 static void write_names(FILE *out)
 {
