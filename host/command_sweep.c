@@ -81,8 +81,11 @@ static int make_folder(job *j)
     j->csv = sweep_path(folder, "sweep", ".csv");
     j->json = sweep_path(folder, "sweep", ".json");
     j->page = sweep_path(folder, "index", ".html");
-    return file_can_write(j->csv, &j->why) || file_can_write(j->json, &j->why) || file_can_write(j->page, &j->why) ? -1
-                                                                                                                   : 0;
+    const char *const files[] = {j->csv, j->json, j->page};
+    for (int i = 0; i < 3; i++)
+        if (file_can_write(files[i], &j->why))
+            return -1;
+    return 0;
 }
 
 static int cast_truths(job *j)
