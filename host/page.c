@@ -151,7 +151,7 @@ static advice_cost cost_of(const page_rows *rows)
     return advice_best_known(&(advice_rows){rows->rows, rows->count, ADVICE_NO_COST});
 }
 
-/* Its cost is its own: with a point light there are no instructions. */
+/* Its cost is its own: the model may know no instructions of its light. */
 static int write_scene(const page *whole, size_t number, problem *why)
 {
     page own = *whole, *p = &own;
