@@ -347,7 +347,7 @@ static int check_complete(reader *r)
         {"image", "image W H", r->image_line},
         {"map", "map W [H]", r->map_line},
         {"camera", "camera perspective|orthographic ...", r->scene->camera.line},
-        {"light", "light directional|spot ...", r->scene->light.line},
+        {"light", "light directional|spot|point ...", r->scene->light.line},
         {"ambient", "ambient A", r->ambient_line},
         {"mesh", "mesh PATH.obj ...", (long)r->scene->mesh_count},
     };
