@@ -114,9 +114,10 @@ auto "$lshape" --budget-bytes 8K >/dev/null
 check "solids_have_one_layer_without_front_faces" grep -q '"layers": "first"' "$folder/stats.json"
 check "of_culled_faces" grep -qE '"cull": "(front|back)"' "$folder/stats.json"
 
-sed 's/^light.*/light point position 1 4 1 near 0.1 far 30/; $r /dev/stdin' "$folder/floor.scene" >"$folder/point.scene" <<'END'
-mesh lshape_L.obj surface closed color 1 1 1
-END
+{
+    sed 's/^light.*/light point position 1 4 1 near 0.1 far 30/' "$folder/floor.scene"
+    echo "mesh lshape_L.obj surface closed color 1 1 1"
+} >"$folder/point.scene"
 auto "$folder/point.scene" --budget-bytes 16K >/dev/null
 check "a_point_light_has_six_maps_within_the_bytes" holds "12 * $(number map_width) * $(number map_height) + $(number silhouettes) + 0 <= 16384 && $(number map_width) > 24"
 check "no_fit_and_no_warp" grep -q '"parameterisation": "uniform"' "$folder/stats.json"
