@@ -443,8 +443,8 @@ export REPORT_SCENES := $(GOLDEN_SCENES)
 PROVE = prove --exec '' -j$$(nproc)
 
 # The longest first, so that no processor waits for them at the end.
-LONG_TESTS := tests/faults/faults.sh tests/hard/slow_move_test.sh $(foreach t,hard/hard host/truth_test host/point_truth_test \
-	core/warped_map_test core/fit_depth_test core/silhouette_map_test core/receiver_test core/warp_table_test core/cascade_test,\
+LONG_TESTS := tests/faults/faults.sh tests/hard/slow_move_test.sh $(foreach t,hard/hard host/volumes_truth_test host/point_truth_test \
+	core/warped_map_test core/fit_depth_test core/silhouette_map_test core/receiver_test core/warp_table_test,\
 	%/tests/$(t))
 longest_first = $(foreach t,$(LONG_TESTS),$(filter $(t),$(1))) $(filter-out $(LONG_TESTS),$(1))
 
