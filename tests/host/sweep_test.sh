@@ -180,7 +180,8 @@ interrupted_by() {
     status 0 sweep "$scene" "$table" -o "$folder/cut" $few 2>"$folder/err2" || return 1
     grep -q "rows were measured before" "$folder/err2" && same_rows "$folder/one/sweep.csv" "$folder/cut/sweep.csv"
 }
-check "interrupted_it_goes_on" interrupted_by INT 130
+# Not INT: who runs this in the background has it ignored, and a shell cannot undo that.
+check "interrupted_it_goes_on" interrupted_by TERM 130
 check "and_says_how" grep -q "the same command goes on from there" "$folder/err"
 check "killed_it_goes_on" interrupted_by KILL 137
 cut_line_is_dropped() {
