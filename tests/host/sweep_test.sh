@@ -181,7 +181,7 @@ interrupted_by() {
     grep -q "rows were measured before" "$folder/err2" && same_rows "$folder/one/sweep.csv" "$folder/cut/sweep.csv"
 }
 # Not INT: who runs this in the background has it ignored, and a shell cannot undo that.
-check "interrupted_it_goes_on" interrupted_by TERM 130
+check "interrupted_it_goes_on" interrupted_by TERM 143
 check "and_says_how" grep -q "the same command goes on from there" "$folder/err"
 check "killed_it_goes_on" interrupted_by KILL 137
 cut_line_is_dropped() {
