@@ -435,7 +435,10 @@ test: ## install what is missing, build for host and targets, run everything, co
 test-inputs: $(TEST_INPUTS)
 
 # What shell tests find in their environment.
-export BUILD CC LANES LANE_CLANG
+export BUILD CC
+# Of the make that runs the tests alone: the one that set up the machine may have looked for clang before it was there.
+run-tests: export LANES := $(LANES)
+run-tests: export LANE_CLANG := $(LANE_CLANG)
 export GNOMON := $(BUILD)/gnomon
 export EMBEDDED_DEPTHS TARGET_DEPTHS MINIMAL_DEPTHS REPORT_CHECKED
 export REPORT_SCENES := $(GOLDEN_SCENES)
