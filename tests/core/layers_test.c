@@ -253,32 +253,6 @@ static void free_scene(random_scene *r)
         shape_free(&r->shapes[i]);
 }
 
-/* All layers, surfaces and culls that go together. */
-static gn_settings random_settings(int32_t width, int32_t height)
-{
-    static const uint8_t choice[][3] = {
-        {GN_CONSTANT, GN_LAYERS_FIRST, GN_CULL_NONE},  {GN_CONSTANT, GN_LAYERS_FIRST, GN_CULL_BACK},
-        {GN_CONSTANT, GN_LAYERS_FIRST, GN_CULL_FRONT}, {GN_MIDPOINT, GN_LAYERS_TWO, GN_CULL_NONE},
-        {GN_MIDPOINT, GN_LAYERS_TWO, GN_CULL_BACK},    {GN_DUAL, GN_LAYERS_TWO, GN_CULL_NONE},
-        {GN_DUAL, GN_LAYERS_TWO, GN_CULL_BACK},        {GN_SECOND, GN_LAYERS_TWO, GN_CULL_NONE},
-        {GN_SECOND, GN_LAYERS_TWO, GN_CULL_BACK},      {GN_SECOND, GN_LAYERS_FIRST, GN_CULL_FRONT},
-        {GN_MIXED, GN_LAYERS_TWO, GN_CULL_NONE},       {GN_SLOPE, GN_LAYERS_FIRST, GN_CULL_NONE},
-        {GN_SLOPE, GN_LAYERS_FIRST, GN_CULL_BACK},     {GN_SLOPE, GN_LAYERS_AUTO, GN_CULL_FRONT},
-    };
-    const uint8_t *c = choice[between(0, sizeof choice / sizeof choice[0] - 1)];
-    gn_settings s = gn_default_settings(4, 4, 1);
-    s.map_width = (uint16_t)width;
-    s.map_height = (uint16_t)height;
-    s.surface = c[0];
-    s.layers = c[1];
-    s.cull = c[2];
-    s.map_rows = (uint16_t)between(0, height);
-    s.bias.unit = GN_BIAS_WORLD;
-    s.bias.value = (uint32_t)(between(0, 3) ? between(0, 300) : between(0, 70000));
-    s.slope = between(0, 1) ? between(0, 4 << 16) : between(0, 64 << 16);
-    return s;
-}
-
 static const char *const surface_names[] = {"constant", "midpoint", "dual", "second", "mixed", "slope"};
 
 static void note_case(uint64_t n, const gn_context *c)
@@ -300,7 +274,7 @@ static void compare_scene(uint64_t n, tally *count)
     random_scene r;
     frame f;
     int32_t width = between(1, 40), height = between(1, 40);
-    gn_settings settings = random_settings(width, height);
+    gn_settings settings = random_layers(LAYER_CHOICES, 4, width, height);
     gn_light light = grid_light((uint32_t)width, (uint32_t)height);
     make_scene(&r, width, height);
     gn_status status = frame_start(&f, &r.scene, &settings);
@@ -433,7 +407,7 @@ static void maps_do_not_depend_on_order_regions_workers(uint64_t cases)
     for (uint64_t n = 0; n < cases; n++) {
         random_scene r;
         int32_t width = between(1, 40), height = between(1, 40);
-        gn_settings settings = random_settings(width, height);
+        gn_settings settings = random_layers(LAYER_CHOICES, 4, width, height);
         gn_light light = grid_light((uint32_t)width, (uint32_t)height);
         make_scene(&r, width, height);
         uint64_t hash[5];

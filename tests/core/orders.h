@@ -78,4 +78,33 @@ static TAP_UNUSED void shuffle(random_scene *r)
     }
 }
 
+/* All layers, surfaces and culls that go together; slopes last. */
+enum { LAYER_CHOICES = 14, SLOPE_CHOICES = 3 };
+static const uint8_t layer_choices[LAYER_CHOICES][3] = {
+    {GN_CONSTANT, GN_LAYERS_FIRST, GN_CULL_NONE},  {GN_CONSTANT, GN_LAYERS_FIRST, GN_CULL_BACK},
+    {GN_CONSTANT, GN_LAYERS_FIRST, GN_CULL_FRONT}, {GN_MIDPOINT, GN_LAYERS_TWO, GN_CULL_NONE},
+    {GN_MIDPOINT, GN_LAYERS_TWO, GN_CULL_BACK},    {GN_DUAL, GN_LAYERS_TWO, GN_CULL_NONE},
+    {GN_DUAL, GN_LAYERS_TWO, GN_CULL_BACK},        {GN_SECOND, GN_LAYERS_TWO, GN_CULL_NONE},
+    {GN_SECOND, GN_LAYERS_TWO, GN_CULL_BACK},      {GN_SECOND, GN_LAYERS_FIRST, GN_CULL_FRONT},
+    {GN_MIXED, GN_LAYERS_TWO, GN_CULL_NONE},       {GN_SLOPE, GN_LAYERS_FIRST, GN_CULL_NONE},
+    {GN_SLOPE, GN_LAYERS_FIRST, GN_CULL_BACK},     {GN_SLOPE, GN_LAYERS_AUTO, GN_CULL_FRONT},
+};
+
+/* One of the first so many, in regions of random height, with a random bias and slope; the image is a square. */
+static inline gn_settings random_layers(int choices, uint16_t image, int32_t width, int32_t height)
+{
+    const uint8_t *c = layer_choices[between(0, choices - 1)];
+    gn_settings s = gn_default_settings(image, image, 1);
+    s.map_width = (uint16_t)width;
+    s.map_height = (uint16_t)height;
+    s.surface = c[0];
+    s.layers = c[1];
+    s.cull = c[2];
+    s.map_rows = (uint16_t)between(0, height);
+    s.bias.unit = GN_BIAS_WORLD;
+    s.bias.value = (uint32_t)(between(0, 3) ? between(0, 300) : between(0, 70000));
+    s.slope = between(0, 1) ? between(0, 4 << 16) : between(0, 64 << 16);
+    return s;
+}
+
 #endif

@@ -866,15 +866,21 @@ static void layers_are_those_of_one_pass(uint64_t cases)
        "%llu texels with a depth, %llu with two", (unsigned long long)count.covered, (unsigned long long)count.two);
 }
 
+/* Until five have failed. */
+static void run_scenes(void (*run)(uint64_t n, tally *count, pixels *seen), uint64_t cases, tally *count, pixels *seen)
+{
+    memset(count, 0, sizeof *count);
+    memset(seen, 0, sizeof *seen);
+    for (uint64_t n = 0; n < cases && count->failures < 5; n++)
+        run(n, count, seen);
+    note_counts(count);
+}
+
 static void pictures_are_those_of_one_pass(uint64_t cases)
 {
     tally count;
     pixels seen;
-    memset(&count, 0, sizeof count);
-    memset(&seen, 0, sizeof seen);
-    for (uint64_t n = 0; n < cases && count.failures < 5; n++)
-        pictures_of_one_scene(n, &count, &seen);
-    note_counts(&count);
+    run_scenes(pictures_of_one_scene, cases, &count, &seen);
     ok(!count.failures, "so are pictures and silhouettes by every chain, in %llu scenes", (unsigned long long)cases);
     ok(seen.lit > 500 * cases && seen.shadowed > 200 * cases && seen.chains > cases * 8 / 10 &&
            seen.drawings > cases / 8 && seen.warped > cases / 5 && seen.spots > cases / 8 && count.reused > cases / 2,
@@ -887,11 +893,7 @@ static void faces_are_those_of_one_pass(uint64_t cases)
 {
     tally count;
     pixels seen;
-    memset(&count, 0, sizeof count);
-    memset(&seen, 0, sizeof seen);
-    for (uint64_t n = 0; n < cases && count.failures < 5; n++)
-        faces_of_one_scene(n, &count, &seen);
-    note_counts(&count);
+    run_scenes(faces_of_one_scene, cases, &count, &seen);
     ok(!count.failures, "so are the faces of point lights, some or all, in %llu scenes", (unsigned long long)cases);
     ok(seen.lit > 1000 * cases && seen.shadowed > 1000 * cases && count.reused > cases,
        "%llu lit and %llu shadowed pixels", (unsigned long long)seen.lit, (unsigned long long)seen.shadowed);

@@ -278,30 +278,11 @@ static void free_scene(random_scene *r)
         shape_free(&r->shapes[i]);
 }
 
-/* All layers, surfaces and culls that go together; slopes with rectilinear warps alone. */
+/* Slopes with rectilinear warps alone. */
 static gn_settings random_settings(int32_t width, int32_t height, const gn_warp *warp)
 {
-    static const uint8_t choice[][3] = {
-        {GN_CONSTANT, GN_LAYERS_FIRST, GN_CULL_NONE},  {GN_CONSTANT, GN_LAYERS_FIRST, GN_CULL_BACK},
-        {GN_CONSTANT, GN_LAYERS_FIRST, GN_CULL_FRONT}, {GN_MIDPOINT, GN_LAYERS_TWO, GN_CULL_NONE},
-        {GN_MIDPOINT, GN_LAYERS_TWO, GN_CULL_BACK},    {GN_DUAL, GN_LAYERS_TWO, GN_CULL_NONE},
-        {GN_DUAL, GN_LAYERS_TWO, GN_CULL_BACK},        {GN_SECOND, GN_LAYERS_TWO, GN_CULL_NONE},
-        {GN_SECOND, GN_LAYERS_TWO, GN_CULL_BACK},      {GN_SECOND, GN_LAYERS_FIRST, GN_CULL_FRONT},
-        {GN_MIXED, GN_LAYERS_TWO, GN_CULL_NONE},       {GN_SLOPE, GN_LAYERS_FIRST, GN_CULL_NONE},
-        {GN_SLOPE, GN_LAYERS_FIRST, GN_CULL_BACK},     {GN_SLOPE, GN_LAYERS_AUTO, GN_CULL_FRONT},
-    };
-    int last = (int)(sizeof choice / sizeof choice[0]) - 1;
-    const uint8_t *c = choice[between(0, warp == &gn_nonorthogonal ? last - 3 : last)];
-    gn_settings s = gn_default_settings(24, 24, 1);
-    s.map_width = (uint16_t)width;
-    s.map_height = (uint16_t)height;
-    s.surface = c[0];
-    s.layers = c[1];
-    s.cull = c[2];
-    s.map_rows = (uint16_t)between(0, height);
-    s.bias.unit = GN_BIAS_WORLD;
-    s.bias.value = (uint32_t)(between(0, 3) ? between(0, 300) : between(0, 70000));
-    s.slope = between(0, 1) ? between(0, 4 << 16) : between(0, 64 << 16);
+    int choices = warp == &gn_nonorthogonal ? LAYER_CHOICES - SLOPE_CHOICES : LAYER_CHOICES;
+    gn_settings s = random_layers(choices, 24, width, height);
     s.warp = warp;
     s.smoothing = between(0, 1) ? 0 : between(1 << 10, 4 << 16);
     return s;

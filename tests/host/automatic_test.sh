@@ -2,17 +2,7 @@
 # `--method auto` with a budget, from the command line: budgets are kept, what is said is true, and what was chosen is
 # what is rendered and packed. GNOMON: the simulator.
 set -u
-cd "$(dirname "$0")/../.." || exit 1
-. tests/tap.sh
-
-gnomon=${GNOMON:-build/gnomon}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-
-nothing_left() {
-    left=$(find "$folder" -name 'new*' -o -name '.[0-9]*')
-    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
-}
+. "$(dirname "$0")/../simulator.sh"
 
 # auto SCENE ARGUMENT...: render it small with a budget; mask, statistics and what is said stay in the folder.
 auto() {
@@ -173,4 +163,5 @@ check "refuses_a_map" refuses "--budget-error with --map" render "$lshape" --mas
 check "refuses_a_reconstruction" refuses "with --reconstruct" pack "$lshape" -o "$folder/new.gno" --reconstruct pcf3 --budget-error 1
 check "refuses_no_trial_without_a_budget" refuses "--no-trial" render "$lshape" --mask "$folder/new.pgm" --no-trial
 
+check "nothing_is_left_behind_by_any" nothing_left
 finish

@@ -2,17 +2,7 @@
 # The simulator's command line: exit statuses, help, outputs, refusals; results that do not depend on how work is cut.
 # GNOMON: the simulator; CC: a compiler for the packed header.
 set -u
-cd "$(dirname "$0")/../.." || exit 1
-. tests/tap.sh
-
-gnomon=${GNOMON:-build/gnomon}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-
-nothing_left() {
-    left=$(find "$folder" -name 'new*' -o -name '.[0-9]*')
-    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
-}
+. "$(dirname "$0")/../simulator.sh"
 
 hash_of() {
     "$gnomon" render "$@" --hash

@@ -2,17 +2,7 @@
 # gnomon sweep: its rows are what render, truth and compare say one by one, in one order whatever the workers, and an
 # interrupted sweep goes on to the same rows. GNOMON: the simulator.
 set -u
-cd "$(dirname "$0")/../.." || exit 1
-. tests/tap.sh
-
-gnomon=${GNOMON:-build/gnomon}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-
-nothing_left() {
-    left=$(find "$folder" -name '[0-9]*-*' -o -name 'new')
-    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
-}
+. "$(dirname "$0")/../simulator.sh"
 
 # column NAME FILE: a line each for the rows. No text of a sweep has a comma.
 column() {
@@ -280,4 +270,5 @@ check "a_journal_of_other_columns" sh -c "cp '$csv' '$folder/kept' && sed -i '1s
 check "is_refused" refuses "other columns" sweep "$scene" -o "$folder/a" --depths 16 --maps 32,120 --budgets 9K,32K --size 48x40
 check "and_left_as_it_is" grep -q bais "$csv"
 
+check "nothing_is_left_behind_by_any" nothing_left
 finish

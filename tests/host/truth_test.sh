@@ -2,17 +2,7 @@
 # gnomon truth on the command line: outputs, counts, workers, refusals, point lights; and that the renderer agrees.
 # GNOMON: the simulator.
 set -u
-cd "$(dirname "$0")/../.." || exit 1
-. tests/tap.sh
-
-gnomon=${GNOMON:-build/gnomon}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-
-nothing_left() {
-    left=$(find "$folder" -name 'new*')
-    [ -z "$left" ] || { echo "left behind: $left"; return 1; }
-}
+. "$(dirname "$0")/../simulator.sh"
 
 # says TEXT FILE
 says() {
@@ -88,4 +78,5 @@ check "a_full_disk_is_refused" status 2 truth "$scene" --size 8x6 --mask "$folde
 check "which_leaves_what_was_written_before" test -s "$folder/stays.pgm"
 check "as_the_help_says" sh -c "'$gnomon' truth --help | grep -q 'no file is left half-written'"
 check "a_folder_that_is_not_there_is_refused" refuses "nowhere" truth "$scene" --mask "$folder/new.pgm" --ties "$folder/nowhere/new.txt"
+check "nothing_is_left_behind_by_any" nothing_left
 finish
